@@ -31,13 +31,12 @@ def wavenumbers(model: RodInHole, load: float) -> FloatArray:
 
     Where a section tapers, those of its least stiffness and largest weight.
     """
-    problem, rod = model.problem, model.problem.rod
-    b, q, radius, breaks = rod.ranges["stiffness"][0], rod.ranges["weight"][1], model.given[:, -1], rod.breaks
-    wa, bed = problem.axial_weight, np.sqrt(problem.lateral_weight * q / (b * problem.clearance * radius))
+    b, bed = model.problem.rod.ranges["stiffness"][0], model.bed(load)
     if model.soft:
         bed = np.maximum(bed, SOFT_WALL**2 * np.sqrt(model.stiffness / b))
-    ends = np.stack([load + wa * rod.lever(s) for s in (breaks[:-1], breaks[1:])])
-    return np.asarray(np.sqrt(np.max([*(np.abs(ends) / b), bed, np.full(b.size, math.pi**2)], axis=0)))
+    return np.asarray(
+        np.sqrt(np.max([*(np.abs(model.resultants(load)) / b), bed, np.full(b.size, math.pi**2)], axis=0))
+    )
 
 
 def wavenumber(model: RodInHole, load: float) -> float:

@@ -11,13 +11,13 @@ import numpy as np
 from rodwell.analysis.off_wall.arrange import refined, turns_of
 from rodwell.analysis.off_wall.certificate import LIMIT, ContactCertificate, contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.curved.own_places import with_own_places
 from rodwell.analysis.off_wall.measured import Numbers, along_axis, measured, position
 from rodwell.analysis.off_wall.pattern import FINER
 from rodwell.analysis.off_wall.soft import aligned
-from rodwell.errors import NotConvergedError
+from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.stretches.carry import sampler
-from rodwell.physics.off_wall.forces import in_space
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Peak, Value
@@ -183,6 +183,38 @@ class ContactState:
         return Peak(value.value, value.error, self._numbers[1].largest_pressure_at)
 
     @cached_property
+    def own_places(self) -> ContactState:
+        """The state in a curved hole with every cross-section at its own place along it.
+
+        Paths take the hole where the undeformed rod is, which is off by the end shortening at most: see
+        :mod:`rodwell.analysis.off_wall.curved.own_places`. Its ``energy`` is that of the rod in space.
+
+        Raises
+        ------
+        InputError
+            If the hole is straight.
+        NotConvergedError
+            If it could not be solved.
+        """
+        if self.problem.hole is None:
+            raise InputError("build", 0.0, "must not be 0: along a straight hole every place is like another")
+        coarse, fine = with_own_places(self.coarse), with_own_places(self.fine)
+        if coarse is None or fine is None:
+            raise NotConvergedError(
+                f"the state at F = {self.force:.8g} B/L² could not be solved at its own places in the hole: a limit "
+                "point is near, or the curvature is too large for this shortening"
+            )
+        return ContactState(self.problem, coarse, fine)
+
+    @property
+    def place_errors(self) -> dict[str, float]:
+        """By how much numbers are off, with the hole where the undeformed rod is, by name; none if it is straight."""
+        if self.problem.hole is None:
+            return {}
+        own, names = self.own_places, ("energy", "shortening", "contact_total")
+        return {name: abs(getattr(own, name).value - getattr(self, name).value) for name in names}
+
+    @cached_property
     def certificate(self) -> ContactCertificate:
         """Balance of forces, signs of contact, and reactions by two routes."""
         return contact_certificate(self.fine)
@@ -233,8 +265,7 @@ def _fields(state: PatternedState, places: FloatArray) -> dict[str, FloatArray]:
     """Fields of a state on one set of elements at ``places`` (k,)."""
     x, y, pressure = position(state, places)
     problem = state.problem
-    n, stiffness = state.load + problem.axial_weight * problem.rod.lever(places), problem.rod.stiffness(places)
-    rod = in_space(x, y, n, problem.twist, stiffness, problem.rod.stiffness.derivative(places))
+    rod, stiffness = state.model.in_space(places, x, y, state.load), problem.rod.stiffness(places)
     gap = problem.rod.clearance(places) - np.hypot(x[0], y[0]) / problem.clearance
     return {
         "x": x[0], "y": y[0], "z": along_axis(state, places), "gap": gap, "angle": np.arctan2(y[0], -x[0]),

@@ -21,6 +21,7 @@ LOADING, UNLOADING = "loading", "unloading"
 
 CRITICAL, LIFT_OFF, SNAP, FOLD, BRANCH_POINT = "critical", "lift_off", "snap", "fold", "branch_point"
 LOAD_PEAK = "load_peak"
+ENTERS, LEAVES = "enters", "leaves"
 TOUCHES, TOUCH_DOWN = "touches", "touch_down"
 
 MEANING = {
@@ -41,6 +42,14 @@ MEANING = {
     SNAP: "the rod snaps",
 }
 """Kinds of events, in words."""
+
+
+ALONG_THE_HOLE = "the rod that lies along the hole buckles"
+
+
+def unbuckled(curved: bool) -> str:
+    """The shape of a rod that has not buckled, in words."""
+    return "where it lies along the hole" if curved else "the straight shape"
 
 
 _ARTICLE = {"sinusoidal": "a ", "helix": "a "}
@@ -98,6 +107,10 @@ class PathPoint:
         The state there; None for the straight rod's buckling. After a snap, the state the rod has snapped to.
     met
         Whether the load meets the tolerance.
+    plane
+        "enters" or "leaves" at a branch point where states go over into the vertical plane, or out of it; else empty.
+    curved
+        Whether the hole is curved: where it has not buckled the rod is not straight there, but lies along the hole.
     """
 
     kind: str
@@ -107,6 +120,8 @@ class PathPoint:
     to: Destination | None = None
     state: ContactState | None = None
     met: bool = True
+    plane: str = ""
+    curved: bool = False
 
     @property
     def meaning(self) -> str:
@@ -114,9 +129,9 @@ class PathPoint:
         if self.kind == CRITICAL and self.state is not None and self.state.kind == BRIDGED:
             return "the string that bridges steps of the clearance buckles sideways"
         if self.to is None:
-            return MEANING[self.kind]
+            return ALONG_THE_HOLE if self.curved and self.kind == CRITICAL else MEANING[self.kind]
         if self.to.kind == STRAIGHT:
-            return "the rod falls back to the straight shape"
+            return f"the rod falls back to {unbuckled(self.curved)}"
         return f"the rod snaps to {self.to.meaning}"
 
     def as_dict(self) -> dict[str, Any]:
