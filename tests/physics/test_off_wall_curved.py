@@ -215,3 +215,12 @@ def test_internal_force_is_that_of_the_rod_on_the_wall_and_in_the_straight_hole(
     straight = in_curved_hole(*position, np.zeros((2, 1)), np.zeros((2, 1)), drive * one, TWIST)
     plain = in_space(*position, drive * one, TWIST, one, 0.0 * one)
     np.testing.assert_allclose(straight.n, plain.n, rtol=1e-13, atol=1e-12)
+
+
+def test_the_opposite_wall_of_the_opposite_curve_under_the_opposite_weight_is_the_same() -> None:
+    """Half a turn about T: x, y, k₁, k₂, the weight across and the generator x = −Δ change signs, nothing else."""
+    one = curved_hole_density(U, (0.6, -0.8), D, TWIST, LOADS, np.array([1.0, 0.0, 0.0]))
+    other = curved_hole_density(-U, (-0.6, 0.8), -D, TWIST, LOADS * [1.0, -1.0, -1.0], np.array([1.0, 0.0, 0.0]))
+    assert other[:2] == pytest.approx(one[:2], rel=1e-14)
+    np.testing.assert_allclose(other[2], -np.array(one[2]), rtol=1e-13)
+    np.testing.assert_allclose(np.array(other[4]), np.array(one[4]), rtol=1e-12, atol=1e-12)

@@ -23,7 +23,7 @@ from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Peak, Value
 
 STRAIGHT, SINUSOIDAL, HELIX, PARTIAL = "straight", "sinusoidal", "helix", "partial contact"
-BRIDGED = "bridged"
+BRIDGED, OTHER_SIDE = "bridged", "along the other side"
 
 MOST_DEGREES = 8
 """By how much the degree of the elements may be raised for a certificate that passes."""
@@ -40,7 +40,10 @@ def kind_of(state: PatternedState, turns: int) -> str:
         return BRIDGED
     if not state.everywhere:
         return PARTIAL
-    return STRAIGHT if float(np.max(np.abs(state.solved.shape.nodes[:, 1]))) < FLAT else SINUSOIDAL
+    angles = state.solved.shape.nodes[:, 1]
+    if state.problem.hole is not None and float(np.ptp(angles)) < FLAT <= float(np.max(np.abs(angles))):
+        return OTHER_SIDE
+    return STRAIGHT if float(np.max(np.abs(angles))) < FLAT else SINUSOIDAL
 
 
 @dataclass(frozen=True)
@@ -121,7 +124,8 @@ class ContactState:
     def kind(self) -> str:
         """What the state is: "straight", "sinusoidal", "helix" (around the hole), "partial contact" or "bridged".
 
-        Bridged is one in the vertical plane, over steps of the clearance.
+        Bridged is one in the vertical plane, over steps of the clearance. Of a curved hole "straight" is the rod that
+        lies along it, and "along the other side" one that does so elsewhere around the hole.
         """
         return kind_of(self.fine, self.turns)
 
@@ -186,8 +190,7 @@ class ContactState:
     def own_places(self) -> ContactState:
         """The state in a curved hole with every cross-section at its own place along it.
 
-        Paths take the hole where the undeformed rod is, which is off by the end shortening at most: see
-        :mod:`rodwell.analysis.off_wall.curved.own_places`. Its ``energy`` is that of the rod in space.
+        Paths take the hole where the undeformed rod is: see :mod:`rodwell.analysis.off_wall.curved.own_places`.
 
         Raises
         ------
@@ -200,10 +203,8 @@ class ContactState:
             raise InputError("build", 0.0, "must not be 0: along a straight hole every place is like another")
         coarse, fine = with_own_places(self.coarse), with_own_places(self.fine)
         if coarse is None or fine is None:
-            raise NotConvergedError(
-                f"the state at F = {self.force:.8g} B/L² could not be solved at its own places in the hole: a limit "
-                "point is near, or the curvature is too large for this shortening"
-            )
+            what = "a limit point is near, or the curvature is too large for this shortening"
+            raise NotConvergedError(f"no state with its own places was found at F = {self.force:.8g} B/L²: {what}")
         return ContactState(self.problem, coarse, fine)
 
     @property

@@ -92,8 +92,8 @@ def leaves_lying(problem: Problem, buckling: float) -> bool:
     if lowest.value >= 0.0:
         raise InputError(
             "build", problem.build, f"bends the hole so that the rod lies at its bottom only under a tension of "
-            f"{lowest.value:.6g} B/L² or more, and a load path begins without an end force: turn the hole over "
-            "(build, and alpha as 180° less), or give more weight",
+            f"{lowest.value:.6g} B/L² or more, and a load path begins without an end force: give more weight, or less "
+            "curvature",
         )  # fmt: skip
     if problem.twist != 0.0:
         raise InputError(
@@ -139,7 +139,10 @@ def flat(state: PatternedState, angle: float = FLAT) -> bool:
         return False  # it has left the wall in its plane, or may: these states are followed, too
     if not pattern.full:
         return float(np.max(np.abs(shape.cartesian[:, :2] - [-1.0, 0.0]))) < angle
-    return pattern.full and not pattern.turns and float(np.ptp(shape.nodes[:, 1])) < angle
+    angles = shape.nodes[:, 1]
+    if state.problem.hole is not None:  # its low side and its high side are not alike
+        return not pattern.turns and float(np.max(np.abs(angles))) < angle
+    return not pattern.turns and float(np.ptp(angles)) < angle
 
 
 def settles(state: PatternedState) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from rodwell.analysis.off_wall.state import OTHER_SIDE
 from rodwell.analysis.path.events import (
     BRANCH_POINT,
     CRITICAL,
@@ -74,4 +75,4 @@ def _clause(event: PathPoint) -> str:
     return f"snaps at {load} B/L² to {_NAMES.get(event.to.kind, 'another state of partial contact')}{turns}"
 
 
-_NAMES = {"helix": "a helix", "sinusoidal": "a sinusoidal shape on the wall"}
+_NAMES = {"helix": "a helix", "sinusoidal": "a sinusoidal shape on the wall", OTHER_SIDE: f"the shape {OTHER_SIDE}"}
