@@ -18,9 +18,13 @@ BEFORE = 0.2
 """How far below the load that its ends alone bear the straight rod in a soft wall is followed from, relative."""
 
 
+BEFORE_BUCKLING = 1.5
+"""Part of a tension under which a rod buckles, as one does that hangs and is heavy, from which on it is followed."""
+
+
 def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
     """The leg of growing compression."""
-    problem, leg, top = model.problem, Leg(LOADING), max(0.0, 0.5 * how.mode.force)
+    problem, leg, top = model.problem, Leg(LOADING), max(0.0, BEFORE_BUCKLING * how.mode.force)
     if model.soft and problem.lateral_weight > 0.0:
         return _into_soft_wall(model, until, leg, how)
     if leaves_lying(problem, how.mode.force):
