@@ -141,7 +141,7 @@ def test_under_controlled_shortening_there_is_no_snap() -> None:
 
 
 def test_a_heavy_rod_that_hangs_buckles_under_tension_and_is_straight_above_that_load_only() -> None:
-    """Its weight compresses the lower end: the straight rod is stable under more tension, the buckled one under less."""
+    """Its weight compresses the lower end: the straight rod is stable under more tension, the buckled under less."""
     hanging = rodwell.Problem(weight=400.0, alpha=5.0)
     load = rodwell.critical_loads(hanging, 1)[0].force
     assert load > 0.0

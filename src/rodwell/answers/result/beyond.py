@@ -143,6 +143,12 @@ def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, s
             "states off the wall of a curved hole are computed of a uniform rod where the hole has one curvature, in a "
             "vertical plane (build)"
         )
+    left = computed.left_before
+    if left is not None and left.value >= 0.0:
+        return None, (
+            "without an end force the curve presses the rod off the side of the hole where it was to lie, and there is "
+            "nothing that a load path could begin with"
+        )
     if off_at(computed) is None:
         return None, "no lift-off was found on the first branch, so there is nothing beyond it"
     until, back = reach(computed)

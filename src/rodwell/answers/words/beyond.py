@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from rodwell.analysis.off_wall.state import HELIX, OTHER_SIDE, PARTIAL, STRAIGHT
-from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, PathPoint, unbuckled
+from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, TOUCHES, UNLOADING, PathPoint, unbuckled
 from rodwell.analysis.path.load_path import ASSUMPTIONS, HARD
 from rodwell.analysis.path.words import gradually, is_gradual
 from rodwell.answers.result.beyond import Beyond, StateBeyond, Step
@@ -109,7 +109,8 @@ def _contact(steps: Sequence[Step]) -> str:
     known = [one.state.state for one in steps if one.state is not None]
     if known and known[-1].fine.everywhere:
         return "full contact"
-    lost = bool(known) and known[-1].contact_total.value <= known[-1].contact_total.error
+    anew = bool(steps) and steps[-1].event.kind == TOUCHES  # without force at first
+    lost = bool(known) and not anew and known[-1].contact_total.value <= known[-1].contact_total.error
     return "its side of the hole, off the wall," if lost else "partial contact"
 
 
