@@ -168,6 +168,14 @@ def test_a_state_is_followed_from_the_straight_hole_into_a_curved_one() -> None:
     )
 
 
+def test_a_contact_that_comes_up_to_an_end_of_the_rod_raises_nothing() -> None:
+    """It shrinks to a point 10⁻⁵ L beside a guided end: a stretch in its place would reach beyond it."""
+    leaving = Problem(10.1985, 93.196, clearance=0.00211026, build=-0.459015, ends=("guided", "guided"))
+    path = path_of(leaving, -40.0)
+    assert path.reached or path.ended_because
+    assert all(one.state.certificate.passed for one in path.events if one.state is not None)
+
+
 def test_where_a_bend_presses_hard_the_rod_is_seen_to_snap() -> None:
     """Six half-waves under 373 B/L³ of contact: soft walls on which shapes are sought yield to that, unless stiffer."""
     long = Problem(10.287563, 60.0, clearance=1.176075e-3, build=0.19477874)
