@@ -206,3 +206,12 @@ def test_axes_and_soft_walls_are_refused() -> None:
         load_path(Problem(15.0, axis=points), until=-100.0)
     with pytest.raises(rodwell.InputError, match="wall_stiffness"):
         load_path(BUILD, until=-100.0, wall_stiffness=1e6)
+
+
+def test_states_just_beyond_lift_off_have_their_balance() -> None:
+    """With its own places a gap opens at another load, 10⁻⁴ of it away: balance is that of the same length of gap."""
+    bent = Problem(35.72105, 83.900286, clearance=0.02221269, build=0.56925649)
+    path = path_of(bent, -264.0)
+    lift = path.lift_off.force.value
+    for load in (lift - 0.005, lift - 0.05, -264.0):
+        assert path.at(load)[0].state.certificate.passed

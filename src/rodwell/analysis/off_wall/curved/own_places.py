@@ -35,6 +35,10 @@ MOST_ROUNDS = 25
 SETTLED = 1e-12
 """Change of the nodes' coordinates below which the places have settled: in a round, or as two foretell of the next."""
 
+ROUND_OFF, STALLED = 1e-5, 0.1
+"""Changes below the first that do not shrink to this part in a round are round-off, as in gaps that have just opened:
+places settle by the product of curvature and shortening a round."""
+
 PIECES = 64
 """Pieces of the rod, at least, in each of which the hole is a polynomial."""
 
@@ -118,24 +122,41 @@ def with_own_places(state: PatternedState, *, near: bool = False) -> PatternedSt
     """The state with every cross-section at its own place; None if it was not found.
 
     At the same end force; or, ``near``, on the plane through the state normal to its path, which exists at a limit
-    point, too. The rod that lies still has its places where the tables have them.
+    point, too, or with its shortest stretch as long as it is: with its own places a gap opens at another load. The rod
+    that lies still has its places where the tables have them.
     """
     shape = state.solved.shape
     if state.pattern.full and not np.any(shape.nodes[:, 1]):
         return state
-    row = _normal(state) if near else fixed_load(shape.chain, shape.load)
+    rows = [_normal(state), _same_length(state)] if near else [fixed_load(shape.chain, shape.load)]
+    return next((found for row in rows if (found := _settled(state, row)) is not None), None)
+
+
+def _settled(state: PatternedState, row: Row) -> PatternedState | None:
+    """The state with its own places for which a row holds; None if they do not settle."""
     found, change = state, np.inf
     for _ in range(MOST_ROUNDS):
         assert isinstance(state.model, RodOffCurvedWall)
         model = replace(state.model, along=_tables_of(found))
         solved = solve(model, found.solved.shape, row)[1]
-        if solved is None:
+        if solved is None or np.any(np.diff(solved.shape.places) <= 0.0):
             return None
         before, change = change, float(np.max(np.abs(solved.shape.nodes - found.solved.shape.nodes)))
         found = PatternedState(state.pattern, state.elements, solved)
-        if change <= SETTLED or (np.isfinite(before) and change**2 <= SETTLED * before):
+        small = change <= SETTLED or (np.isfinite(before) and change**2 <= SETTLED * before)
+        if small or STALLED * before <= change <= ROUND_OFF:
             return found
     return None
+
+
+def _same_length(state: PatternedState) -> Row:
+    """The row that holds the length of the shortest stretch; of a single one the load."""
+    shape = state.solved.shape
+    if not shape.breaks.size:
+        return fixed_load(shape.chain, shape.load)
+    shortest, weights = int(np.argmin(np.diff(state.bounds))), np.zeros(shape.breaks.size + 2)
+    weights[[shortest, shortest + 1]] = -1.0, 1.0  # of all bounds; those of the rod's ends are fixed
+    return Row(np.zeros_like(shape.nodes), weights[1:-1], 0.0, float(weights[1:-1] @ shape.breaks))
 
 
 def _normal(state: PatternedState) -> Row:
