@@ -47,6 +47,8 @@ COMMANDS = {
     "critical-build": "critical --weight 15 --alpha 90 --build 0.2 --modes 3",
     "critical-drop": "critical --weight 15 --alpha 90 --build -0.4 --modes 2",
     "liftoff-build": "liftoff --weight 15 --alpha 90 --build 0.2",
+    "path-build": "path --weight 15 --alpha 90 --build 0.2 --until -360 --at -340 --out results/path-build",
+    "path-drop": "path --weight 15 --alpha 90 --build -0.5 --until -45",
     "run-build": "run examples/build-section.toml --out results/build",
     "run-surveyed": "run examples/surveyed-well.toml --out results/surveyed",
     "liftoff-sections": "liftoff --weight 15 --alpha 60 --sections 0.6:1:1,0.4:0.3:0.5",

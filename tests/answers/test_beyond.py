@@ -221,3 +221,17 @@ def test_the_key_of_the_case_file() -> None:
     assert not Case.from_dict(off).off_wall
     with pytest.raises(rodwell.InputError, match=r"analysis\.off_wall"):
         Case.from_dict({**CASE, "analysis": {"off_wall": "yes"}})
+
+
+@pytest.mark.parametrize(
+    ("build", "said"),
+    [
+        (-0.5, "lifts off at 28.6602 B/L²; touches the wall anew at 33.2826 B/L²; keeps partial contact at"),
+        (-2.0, "without an end force the curve presses the rod off the side of the hole"),
+    ],
+)
+def test_a_rod_that_a_drop_lifts_off_before_it_buckles(build: float, said: str) -> None:
+    """Where it can lie without an end force it is followed from there: off the low side, over to the high one."""
+    case = rodwell.Case.from_dict({"dimensionless": {"weight": 15.0, "alpha": 90.0}, "analysis": {"modes": 1}})
+    case = replace(case, problem=case.problem.but(build=build))
+    assert said in beyond_sentences(case, rodwell.answer(case).beyond)[0]

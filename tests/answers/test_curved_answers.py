@@ -179,7 +179,9 @@ def test_the_whole_folder(tmp_path: Path) -> None:
     assert {"report.html", "answer.json", "rod-3d.html", "wall-loads.svg", "along-rod.csv", "branches.nc"} <= names
     assert "cylinder.svg" not in names
     data = json.loads((tmp_path / "out" / "answer.json").read_text(encoding="utf-8"))
-    assert "states off the wall" in data["lying"]["left_out"]
+    assert "states off the wall" not in data["lying"]["left_out"]
+    assert {"load-path.csv", "load-path.svg", "load-path-3d.html"} <= names
+    assert [event["kind"] for event in data["beyond_lift_off"]["events"]][:2] == ["critical", "lift_off"]
     assert "derivatives" not in data["lying"]["left_out"]
     assert [set(load["derivatives"]) for load in data["sensitivities"]] == [
         {"weight", "alpha", "clearance", "build"}
@@ -188,7 +190,8 @@ def test_the_whole_folder(tmp_path: Path) -> None:
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert "Not told of a curved hole" in page
     assert "curvature of the hole" in page[page.index("What the inputs do to the loads") :]
-    assert "computed in straight holes only" in page  # beyond lift-off
+    assert "Beyond lift-off" in page
+    assert "the rod that lies along the hole buckles" in page
     assert "straight rod" not in page
 
 

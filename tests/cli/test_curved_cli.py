@@ -51,7 +51,9 @@ def test_critical_as_json() -> None:
         (("certify", "--build", "0.2"), "loads are proved of a rod without weight"),
         (("sensitivity", "--build", "0.2", "--walk", "0.1"), "no critical load"),
         (("twist", "--build", "0.2"), "in straight holes only"),
-        (("path", "--build", "0.2", "--until", "-200"), "in straight holes only"),
+        (("path", "--build", "0.2", "--walk", "0.1", "--until", "-200"), "lies beside the bottom"),
+        (("path", "--build", "0.2", "--until", "-200", "--wall-stiffness", "1e6"), "whose wall is hard here"),
+        (("path", "--build", "0.2", "--sections", "0.5:1,0.5:2", "--until", "-200"), "beside its steps"),
         (
             ("curve", "critical", "--over", "twist", "--from", "0", "--to", "1", "--build", "0.2", "--walk", "0.1"),
             "no critical load",
@@ -62,6 +64,25 @@ def test_what_is_refused_says_why(words: tuple[str, ...], why: str) -> None:
     result = CliRunner().invoke(cli, (*words, "--weight", "15", "--alpha", "90"))
     assert isinstance(result.exception, InputError)
     assert why in str(result.exception)
+
+
+def test_the_load_path_off_the_wall() -> None:
+    """Lift-off is that of `rodwell liftoff`; states have their numbers with every cross-section at its own place."""
+    words = ("path", "--weight", "15", "--alpha", "90", "--build", "0.2", "--until", "-250", "--at", "-247")
+    code, text = run(*words)
+    assert code == 0
+    assert "the rod that lies along the hole buckles" in text
+    assert "with every cross-section at its own place" in text
+    assert "straight rod" not in text
+    code, text = run(*words, "--json")
+    data = json.loads(text)
+    events = {event["kind"]: event["force"]["value"] for event in data["events"]}
+    assert events["critical"] == pytest.approx(-177.320540182, rel=1e-11)
+    lift = json.loads(run("liftoff", "--weight", "15", "--alpha", "90", "--build", "0.2", "--json")[1])
+    assert events["lift_off"] == pytest.approx(lift["lift_off"]["force"], rel=1e-8)
+    (state,) = data["states"]
+    assert state["certificate"]["passed"]
+    assert 0.0 < state["place_errors"]["energy"] < 2e-5 * abs(state["energy"]["value"])
 
 
 def test_lift_off_with_and_without_own_places() -> None:

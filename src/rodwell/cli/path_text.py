@@ -88,12 +88,13 @@ def print_path(result: LoadPath, case: Case | None) -> None:
         at = "" if driven is None else f", {result.way.held} {amount(driven, 9)} L"
         click.echo(f"  {with_error(event.force)}  {event.meaning}{where}{at}")
         if event.to is not None:
-            energy = f"energy {_signed(event.to.energy, 9)} B/L relative to the straight rod"
+            energy = f"energy {_signed(event.to.energy, 9)} B/L relative to {_rest(result)}"
             energy += "" if driven is None else f", F = {_signed(event.to.force, 10)}"
             click.echo(f"      {energy}; {event.to.agree} of {event.to.starts} disturbed starts end there")
     symbol = "F" if result.way.by_force else result.way.held
     if result.reached and not any(leg.runs for leg in result.legs):
-        click.echo("The rod stays straight: the first load at which it buckles is not reached.")
+        stays = "stays straight" if result.problem.hole is None else "lies along the hole"
+        click.echo(f"The rod {stays}: the first load at which it buckles is not reached.")
     if result.reached:
         click.echo(f"Followed to {symbol} = {plain(result.until, 6)}" + (
             "." if result.unload_to is None else f" and back to {plain(result.unload_to, 6)}."
@@ -103,6 +104,11 @@ def print_path(result: LoadPath, case: Case | None) -> None:
     if result.problem.twist != 0.0:
         arm = "without" if result.mirror else "with"
         wrapped(f"Twist makes the two arms of the buckling mode differ: the other one is followed {arm} --mirror.")
+
+
+def _rest(result: LoadPath) -> str:
+    """The rod that has not buckled, from which energies count."""
+    return "the straight rod" if result.problem.hole is None else "the rod that lies along the hole"
 
 
 def _places(s: tuple[float, ...]) -> str:
@@ -130,6 +136,21 @@ def _print_state(shown: PathState) -> None:
     check = state.certificate
     passed = f"{'passed' if check.passed else 'NOT passed'}, {error_digit(check.worst)}"
     click.echo(f"  all contact forces {amount(state.contact_total, 7)} {UNIT}; certificate {passed}")
+    if state.problem.hole is not None:
+        _print_own_places(state)
+
+
+def _print_own_places(state: ContactState) -> None:
+    """The numbers of a state in a curved hole with every cross-section at its own place."""
+    from rodwell.errors import NotConvergedError  # noqa: PLC0415
+
+    try:
+        own = state.own_places
+    except NotConvergedError as error:
+        wrapped(f"  {error}")
+        return
+    click.echo("  the hole is taken where the undeformed rod is; with every cross-section at its own place:")
+    click.echo(f"    energy {amount(own.energy, 9)} B/L, all contact forces {amount(own.contact_total, 7)} {UNIT}")
 
 
 def print_contacts(state: ContactState) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.curved.own_places import bends_along
 from rodwell.analysis.off_wall.measured import position
 from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.path.events import LOADING, SNAP, UNLOADING, Leg, PathPoint
@@ -78,7 +79,8 @@ def ordinates(state: PatternedState) -> dict[Measured, float]:
     square = state.problem.clearance**2
     ends = position(state, np.array([0.0, 0.5, 1.0]))
     out = state.solved.out
-    first, last = (_sideways(ends[0][:, i], ends[1][:, i]) for i in (0, 2))
+    bends = bends_along(state, np.array([0.0, 0.5, 1.0]))
+    first, last = (_sideways(ends[0][:, i], ends[1][:, i], bends[:, i]) for i in (0, 2))
     return {
         Measured.OMEGA2_0: first, Measured.OMEGA2_1: last, Measured.ENERGY: out.energy * square,
         Measured.SHORTENING: out.energy_by_load * square,
@@ -87,10 +89,13 @@ def ordinates(state: PatternedState) -> dict[Measured, float]:
     }  # fmt: skip
 
 
-def _sideways(x: FloatArray, y: FloatArray) -> float:
-    """Curvature across the direction to the axis, ω₂ of (20), of a rod on the wall there: position with derivatives."""
-    angle = np.arctan2(y[0], -x[0])
-    return float(-x[2] * np.sin(angle) - y[2] * np.cos(angle))
+def _sideways(x: FloatArray, y: FloatArray, k: FloatArray) -> float:
+    """Curvature across the direction to the axis, ω₂ of (20), of a rod on the wall there: position with derivatives.
+
+    ``k``: that of the hole there, k₁ and k₂, which bends the rod, too.
+    """
+    angle, narrowed = np.arctan2(y[0], -x[0]), 1.0 - k[0] * x[0] - k[1] * y[0]
+    return float(-(x[2] + k[0] / narrowed) * np.sin(angle) - (y[2] + k[1] / narrowed) * np.cos(angle))
 
 
 def _pressure(state: PatternedState) -> FloatArray:

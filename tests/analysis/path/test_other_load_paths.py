@@ -138,3 +138,13 @@ def test_under_controlled_shortening_there_is_no_snap() -> None:
     h = 1e-6
     low, here, high = (path.at(0.0011 + t)[0].state for t in (-h, 0.0, h))
     assert (stored(high) - stored(low)) / (2 * h) == pytest.approx(-here.force, rel=1e-6)
+
+
+def test_a_heavy_rod_that_hangs_buckles_under_tension_and_is_straight_above_that_load_only() -> None:
+    """Its weight compresses the lower end: the straight rod is stable under more tension, the buckled under less."""
+    hanging = rodwell.Problem(weight=400.0, alpha=5.0)
+    load = rodwell.critical_loads(hanging, 1)[0].force
+    assert load > 0.0
+    path = load_path(hanging, until=load - 2.0, seeds=1)
+    assert [(one.state.kind, one.stability_index) for one in path.at(load + 1.0)] == [("straight", 0)]
+    assert [(one.state.kind, one.stability_index) for one in path.at(load - 1.0)] == [("sinusoidal", 0)]

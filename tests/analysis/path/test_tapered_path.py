@@ -63,10 +63,10 @@ def test_the_radial_moment_changes_along_a_taper() -> None:
     model, s, h = RodInHole(TAPER.but(twist=0.7)), np.array([0.3]), 1e-5
     given = model.given.T
     rate, bend = np.array([4.0]), np.array([-3.0])
-    low, here, high = (model.rim_reaction(s + d, rate, bend, given) for d in (-h, 0.0, h))
-    assert here[2] == pytest.approx((high[0] - low[0]) / (2.0 * h), rel=1e-9)
-    slower, faster = (model.rim_reaction(s, rate + d, bend, given)[0] for d in (-h, h))
-    assert here[1] == pytest.approx((faster - slower) / (2.0 * h), rel=1e-9)
+    low, here, high = (model.rim_reaction(s + d, 0.0 * s, rate, bend, given) for d in (-h, 0.0, h))
+    assert here[3] == pytest.approx((high[0] - low[0]) / (2.0 * h), rel=1e-9)
+    slower, faster = (model.rim_reaction(s, 0.0 * s, rate + d, bend, given)[0] for d in (-h, h))
+    assert here[2] == pytest.approx((faster - slower) / (2.0 * h), rel=1e-9)
 
 
 def test_a_kink_of_the_stiffness_is_refused_where_the_wall_would_have_to_hold_it() -> None:

@@ -11,9 +11,10 @@ import numpy as np
 from rodwell.analysis.beyond.carry import carried
 from rodwell.analysis.beyond.off_wall_branch import END, OffWallBranch, OffWallPoint
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
+from rodwell.analysis.off_wall.curved.model import rod_in_hole
+from rodwell.analysis.off_wall.curved.refused import refuse_holes
 from rodwell.analysis.off_wall.following import followed
 from rodwell.analysis.off_wall.happening import BRANCH_POINT, FOLD, Followed, PathEvent
-from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.resolve import resolved_event
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.state.equilibrium import Equilibrium
@@ -47,11 +48,12 @@ def check_crosses(problem: Problem) -> None:
     Raises
     ------
     InputError
-        In a curved hole, outside a cylinder or on top of it, without lateral weight, of sections that taper or differ
-        in stiffness or clearance, and at ends that are not radially held.
+        In a curved hole along an axis, out of the vertical plane or of a string, outside a cylinder or on top of it,
+        without lateral weight, of sections that taper or differ in stiffness or clearance, and at ends that are not
+        radially held.
     """
     field = "off_wall"
-    problem.refuse_curved("branches are followed off the wall")
+    refuse_holes(problem)
     loose = [end for end in problem.ends if end in OFF_WALL_ENDS]
     if loose:
         raise InputError("ends", "-".join(problem.ends), f"the rod leaves the wall at a {loose[0]} end as it buckles: "
@@ -102,7 +104,7 @@ def beyond_lift_off(
     NotConvergedError
         If no state off the wall was found that goes on where the branch on the wall lifts off.
     """
-    start = carried(RodInHole(before.problem), before)
+    start = carried(rod_in_hole(before.problem), before)
     if start is None:
         raise NotConvergedError("the state before lift-off was not found as one of a rod that may leave the wall")
 
@@ -113,12 +115,19 @@ def beyond_lift_off(
     walk = _Walk(before.problem, until, back, rtol)
     path = followed(start, walk.target(lift_off - before.force, lift_off), progress=told)
     opening = next(iter(path.events), None)
-    same = opening is not None and abs(opening.state.load - lift_off) <= SAME * abs(lift_off)
-    if opening is None or not same or opening.kind != GAP_OPENS or len(path.states) < 2:
+    if opening is None or not _at(opening, lift_off, rtol) or opening.kind != GAP_OPENS or len(path.states) < 2:
         raise NotConvergedError(f"no state off the wall was found that goes on at lift-off: {path.ended}")
     first = next(i for i, state in enumerate(path.states) if state is opening.state)
     walk.take(Followed(path.states[first:], path.events[1:], path.ended, path.along))
     return walk.on(told)
+
+
+def _at(opening: PathEvent, lift_off: float, rtol: float) -> bool:
+    """Whether a gap opens at lift-off: on elements along a path, or on those on which it is located."""
+    size = SAME * abs(lift_off)
+    if abs(opening.state.load - lift_off) <= size:
+        return True
+    return abs(resolved_event(opening, rtol).load.value - lift_off) <= size
 
 
 @dataclass(eq=False)

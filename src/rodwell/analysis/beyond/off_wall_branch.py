@@ -12,6 +12,7 @@ from rodwell.analysis.beyond.between import around, nearest_first, state_at
 from rodwell.analysis.discrete.measures import MEASURES, Measured, measured
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.control import FORCE
+from rodwell.analysis.off_wall.curved.own_places import bends_along
 from rodwell.analysis.off_wall.measured import measured as numbers_of
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.state.fields import GRID
@@ -227,4 +228,6 @@ def number_off_wall(state: PatternedState, which: Measured) -> float:
         return 0.0
     fields, angle = sampler(state.solved.shape)(np.array([float(end)]))
     around_hole = np.array([np.sin(angle[0, 0]), np.cos(angle[0, 0])])
-    return float(-state.problem.clearance * around_hole @ fields[:, 2, 0])
+    k = bends_along(state, np.array([float(end)]))[:, 0]
+    turned = k / (1.0 - state.problem.clearance * k @ fields[:, 0, 0])  # with the hole
+    return float(-around_hole @ (state.problem.clearance * fields[:, 2, 0] + turned))

@@ -31,13 +31,12 @@ def wavenumbers(model: RodInHole, load: float) -> FloatArray:
 
     Where a section tapers, those of its least stiffness and largest weight.
     """
-    problem, rod = model.problem, model.problem.rod
-    b, q, radius, breaks = rod.ranges["stiffness"][0], rod.ranges["weight"][1], model.given[:, -1], rod.breaks
-    wa, bed = problem.axial_weight, np.sqrt(problem.lateral_weight * q / (b * problem.clearance * radius))
+    b, bed = model.problem.rod.ranges["stiffness"][0], model.bed(load)
     if model.soft:
         bed = np.maximum(bed, SOFT_WALL**2 * np.sqrt(model.stiffness / b))
-    ends = np.stack([load + wa * rod.lever(s) for s in (breaks[:-1], breaks[1:])])
-    return np.asarray(np.sqrt(np.max([*(np.abs(ends) / b), bed, np.full(b.size, math.pi**2)], axis=0)))
+    return np.asarray(
+        np.sqrt(np.max([*(np.abs(model.resultants(load)) / b), bed, np.full(b.size, math.pi**2)], axis=0))
+    )
 
 
 def wavenumber(model: RodInHole, load: float) -> float:
@@ -97,7 +96,9 @@ def solved(
     shape, elements = arranged(model, pattern, breaks, load, sample, degree=degree, elements=elements)
     row = fixed_load(shape.chain, load) if fixed is None else _fixed_distance(shape, *fixed)
     state: Solved | None = solve(model, shape, row)[1]
-    return None if state is None else PatternedState(pattern, elements, state)
+    if state is None or np.any(np.diff(state.shape.places) <= 0.0):  # an end of a stretch has passed another, or s = 0
+        return None
+    return PatternedState(pattern, elements, state)
 
 
 def turns_of(model: RodInHole, sample: Sampler) -> int:

@@ -7,6 +7,9 @@ The solver makes an energy stationary. Here the internal force is rebuilt from t
 * along a stretch in contact the same with p d₁, p from the formula of the rod kept on the wall,
 * at each point force n jumps by −P d₁: P by the jump against P by virtual work, and nothing in any other direction.
 
+In a curved hole the balance is that of vectors in space, with the hole's frame where the rod is: of the state beside
+this one that has every cross-section at its own place (:mod:`rodwell.analysis.off_wall.curved.own_places`).
+
 Complementarity: no penetration, no contact that pulls.
 """
 
@@ -18,8 +21,9 @@ from typing import Any
 import numpy as np
 
 from rodwell.analysis.off_wall.conditions import OPENS, PatternedState, conditions
+from rodwell.analysis.off_wall.curved.model import RodOffCurvedWall
+from rodwell.analysis.off_wall.curved.own_places import in_fixed_axes, weight_axes, with_own_places
 from rodwell.analysis.off_wall.measured import position
-from rodwell.physics.off_wall.forces import in_space
 from rodwell.quantities.arrays import BoolArray, FloatArray
 
 LIMIT = 1e-7
@@ -81,6 +85,18 @@ class ContactCertificate:
 
 def contact_certificate(state: PatternedState) -> ContactCertificate:
     """Evaluate the certificate of a state."""
+    return ContactCertificate(_residuals(_balanced(state)), _penetration(state), *_least(state))
+
+
+def _balanced(state: PatternedState) -> PatternedState:
+    """The state whose balance is looked at; where that with its own places was not found, the state misses it."""
+    if not isinstance(state.model, RodOffCurvedWall):
+        return state
+    return with_own_places(state, near=True) or state
+
+
+def _residuals(state: PatternedState) -> dict[str, float]:
+    """What is left of the balance, by its name."""
     problem, points = state.model.problem, state.point_forces
     scale = max(abs(state.load), problem.weight, 1.0)
     left, right, on = _parts(state)
@@ -95,18 +111,19 @@ def contact_certificate(state: PatternedState) -> ContactCertificate:
     ends = _with_loads(state, ends)
     for i, (place, outward, _) in enumerate(points):
         jump = ends[i + 1][0] - ends[i][1]
-        x, y, _ = position(state, np.array([place]))
-        inward = -np.array([x[0, 0], y[0, 0], 0.0]) / float(np.hypot(x[0, 0], y[0, 0]))
+        at = np.array([place])
+        x, y, _ = position(state, at)
+        radial = np.stack([x[0], y[0], 0.0 * at]) / np.hypot(x[0], y[0])
+        inward = -in_fixed_axes(state, at, radial)[:, 0]
         force = problem.clearance * outward
         routes = max(routes, abs(float(-jump @ inward) - force))
         across = max(across, float(np.max(np.abs(jump - (jump @ inward) * inward))))
-    residuals = {
+    return {
         "balance of free stretches": free / scale,
         "balance of stretches in contact": touching / scale,
         "point forces by two routes": routes / scale,
         "jumps across the wall's normal": across / scale,
     }
-    return ContactCertificate(residuals, _penetration(state), *_least(state))
 
 
 def _with_loads(
@@ -129,10 +146,7 @@ def _parts(state: PatternedState) -> tuple[FloatArray, FloatArray, BoolArray]:
 def _force(state: PatternedState, s: FloatArray) -> FloatArray:
     """The internal force at places (m,) by moment balance, (3, m)."""
     x, y, _ = position(state, s)
-    problem = state.model.problem
-    n = state.load + problem.axial_weight * problem.rod.lever(s)
-    stiffness = problem.rod.stiffness
-    return in_space(x, y, n, problem.twist, stiffness(s), stiffness.derivative(s)).n
+    return in_fixed_axes(state, s, state.model.in_space(s, x, y, state.load).n)
 
 
 def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
@@ -145,10 +159,8 @@ def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
     half, middle = 0.5 * np.diff(grid), 0.5 * (grid[1:] + grid[:-1])
     s = (middle[:, None] + half[:, None] * points).ravel()
     x, y, pressure = position(state, s)
-    weight, outward = problem.rod.weight(s), pressure / np.hypot(x[0], y[0])
-    density = np.stack([
-        problem.foundation * weight - outward * x[0], -outward * y[0], problem.axial_weight * weight
-    ])  # fmt: skip
+    inward = -pressure / np.hypot(x[0], y[0]) * np.stack([x[0], y[0], 0.0 * s])
+    density = in_fixed_axes(state, s, inward) + weight_axes(state)[:, None] * problem.rod.weight(s)
     panels = density.reshape(3, -1, ORDER) @ weights * half
     # between the last place of a part and the first of the next there is nothing but their insets
     sums = np.add.reduceat(panels, np.searchsorted(middle, places.ravel()[:-1]), axis=1)

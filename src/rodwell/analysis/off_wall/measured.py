@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rodwell.analysis.off_wall.conditions import PatternedState, pressure_on
+from rodwell.analysis.off_wall.curved.own_places import energy_in_space, has_own_places, places_along
 from rodwell.analysis.off_wall.depth import depth
 from rodwell.numerics.stretches.basis import reference_element
 from rodwell.numerics.stretches.carry import elements_at, fields_at
@@ -64,10 +65,11 @@ def measured(state: PatternedState) -> Numbers:
                 highest, at = largest, where
         elif largest > 0.0:
             gaps[i], places[i] = largest, where
+    energy = energy_in_space(state) if has_own_places(state) else out.energy * d**2
     at_points = np.array([one[:2] for one in state.point_forces]).reshape(-1, 2)
     return Numbers(
-        out.energy * d**2, out.energy_by_load * d**2, state.bounds, at_points[:, 0], d * at_points[:, 1], forces, gaps,
-        places, highest, at,
+        energy, out.energy_by_load * d**2, state.bounds, at_points[:, 0], d * at_points[:, 1], forces, gaps, places,
+        highest, at,
     )  # fmt: skip
 
 
@@ -104,7 +106,10 @@ def _farther(shape: Shape, left: FloatArray, length: FloatArray, on: bool) -> Ca
 
 
 def along_axis(state: PatternedState, places: FloatArray) -> FloatArray:
-    """z(s) in L at ``places`` (k,), by Gauss's rule on a fine grid."""
+    """z(s) in L at ``places`` (k,), by Gauss's rule on a fine grid; in a curved hole S(s) − S(0) of its axis."""
+    if state.problem.hole is not None:
+        place = places_along(state)
+        return np.asarray(place(places) - place(np.zeros(1)))
     return np.asarray(np.interp(places, *_axis(state)))
 
 

@@ -20,7 +20,7 @@ import numpy as np
 from rodwell.analysis.discrete.family import polynomials
 from rodwell.numerics.stretches.descent import pressed_in
 from rodwell.physics.off_wall._density import hole_density
-from rodwell.physics.off_wall.forces import radially_at_wall
+from rodwell.physics.off_wall.forces import InSpace, in_space, radially_at_wall
 from rodwell.physics.on_wall._density import rod_density
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, SIDE, TWIST
 from rodwell.physics.on_wall.sections import of_section, section_density
@@ -145,19 +145,40 @@ class RodInHole:
         return energy, rate / d**2, gradient, mixed, hessian
 
     def rim_reaction(
-        self, s: FloatArray, rate: FloatArray, bend: FloatArray, given: FloatArray
+        self, s: FloatArray, angle: FloatArray, rate: FloatArray, bend: FloatArray, given: FloatArray
     ) -> tuple[FloatArray, ...]:
-        """Radial moment at a cut of a rod on the wall, its derivatives by φ′ and by the place, its outward force, (k,).
+        """Radial moment at a cut of a rod on the wall, its derivatives by φ, φ′ and the place, its outward force, (k,).
 
-        From φ′ and φ″ there: :func:`rodwell.physics.off_wall.forces.radially_at_wall`. Where the stiffness tapers, the
-        moment of bending, −b Δ φ′², changes with it along the rod, and a force bears that too.
+        From φ′ and φ″ there, whatever φ: :func:`rodwell.physics.off_wall.forces.radially_at_wall`. Where the stiffness
+        tapers, the moment of bending, −b Δ φ′², changes with it along the rod, and a force bears that too.
         """
         stiffer = stiffness_rates(s, given)[0] if self.tapered else 0.0
         given = self._at(s, given)
         d, radius = self.problem.clearance, self.problem.clearance * given[3]
         moment, by_rate, outward = radially_at_wall(rate, bend, radius, self.problem.twist, given[0])
         by_place = -stiffer * radius * rate**2
-        return moment / d, by_rate / d, by_place / d, (outward + by_place) / d
+        return moment / d, np.zeros_like(angle), by_rate / d, by_place / d, (outward + by_place) / d
+
+    def in_space(self, s: FloatArray, x: FloatArray, y: FloatArray, load: float) -> InSpace:
+        """Tangent and internal force in space, from x and y with three derivatives, (4, k) each."""
+        problem, stiffness = self.problem, self.problem.rod.stiffness
+        n = load + problem.axial_weight * problem.rod.lever(s)
+        return in_space(x, y, n, problem.twist, stiffness(s), stiffness.derivative(s))
+
+    def resultants(self, load: float) -> FloatArray:
+        """N at both ends of each section, (2, n)."""
+        problem, breaks = self.problem, self.problem.rod.breaks
+        return np.stack([load + problem.axial_weight * problem.rod.lever(s) for s in (breaks[:-1], breaks[1:])])
+
+    def bed(self, load: float) -> FloatArray:
+        """√(wₗ/(bΔ)) of each section, (n,): its least stiffness, its largest weight."""
+        problem, ranges = self.problem, self.problem.rod.ranges
+        b, q, radius = ranges["stiffness"][0], ranges["weight"][1], self.given[:, -1]
+        return np.asarray(np.sqrt(problem.lateral_weight * q / (b * problem.clearance * radius)))
+
+    def firmness(self, load: float) -> float:
+        """How many times as stiff soft walls must be, on which shapes are sought, as where weight alone presses."""
+        return 1.0
 
     def pressure(self, s: FloatArray, angle: FloatArray, load: float, given: FloatArray) -> FloatArray:
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, k)."""

@@ -82,7 +82,7 @@ def end_held(problem: Problem, last: bool, turns: float, radius: float) -> tuple
     held[ANGLE] = end in ("clamped", "pinned", "ball")
     held[RADIAL_SLOPE] = end in ("clamped", "pinned", "guided", "free")
     held[ANGLE_RATE] = end in ("clamped", "guided")
-    if not last and problem.lateral_weight == 0.0 and not problem.holds_angle:
+    if not last and problem.untouched and not problem.holds_angle:
         held[ANGLE] = True
     return held, np.where(held, values, np.nan)
 
@@ -149,7 +149,7 @@ def chain(
         if touching[-1 if last else 0]:
             held[node, [RADIUS, RADIAL_SLOPE]] = True
             values[node, [RADIUS, RADIAL_SLOPE]] = around[node], 0.0
-    if pattern.planar and not pattern.stopped and pattern.touching == (False,) and problem.lateral_weight == 0.0:
+    if pattern.planar and not pattern.stopped and pattern.touching == (False,) and problem.untouched:
         # it may turn about the line between its ends at no cost
         held[total // 2, ANGLE] = True  # the second coordinate, Y: a plane is as good as another
     moving = first[1:-1].astype(np.int64)

@@ -60,8 +60,10 @@ def recognised(model: RodInHole, shape: Shape, control: Control, value: float) -
     With a value of what is controlled. The wall is made stiffer until the pattern that it shows can be solved for:
     forces that are concentrated behind a hard wall are spread over lengths like k^(−1/4).
     """
-    for stiffness in STIFFNESSES:
-        if stiffness == FINER_FROM:
+    firmness = model.firmness(shape.load)
+    for one in STIFFNESSES:
+        stiffness = one * firmness
+        if one == FINER_FROM:
             pieces = np.histogram(0.5 * (shape.places[1:] + shape.places[:-1]), model.problem.rod.breaks)[0]
             shape, _ = arranged(
                 model, Pattern((False,)), np.zeros(0), shape.load, sampler(shape), degree=shape.chain.degree,

@@ -11,19 +11,19 @@ import numpy as np
 from rodwell.analysis.off_wall.arrange import refined, turns_of
 from rodwell.analysis.off_wall.certificate import LIMIT, ContactCertificate, contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.curved.own_places import with_own_places
 from rodwell.analysis.off_wall.measured import Numbers, along_axis, measured, position
 from rodwell.analysis.off_wall.pattern import FINER
 from rodwell.analysis.off_wall.soft import aligned
-from rodwell.errors import NotConvergedError
+from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.stretches.carry import sampler
-from rodwell.physics.off_wall.forces import in_space
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Peak, Value
 
 STRAIGHT, SINUSOIDAL, HELIX, PARTIAL = "straight", "sinusoidal", "helix", "partial contact"
-BRIDGED = "bridged"
+BRIDGED, OTHER_SIDE = "bridged", "along the other side"
 
 MOST_DEGREES = 8
 """By how much the degree of the elements may be raised for a certificate that passes."""
@@ -40,7 +40,10 @@ def kind_of(state: PatternedState, turns: int) -> str:
         return BRIDGED
     if not state.everywhere:
         return PARTIAL
-    return STRAIGHT if float(np.max(np.abs(state.solved.shape.nodes[:, 1]))) < FLAT else SINUSOIDAL
+    angles = state.solved.shape.nodes[:, 1]
+    if state.problem.hole is not None and float(np.ptp(angles)) < FLAT <= float(np.max(np.abs(angles))):
+        return OTHER_SIDE
+    return STRAIGHT if float(np.max(np.abs(angles))) < FLAT else SINUSOIDAL
 
 
 @dataclass(frozen=True)
@@ -121,7 +124,8 @@ class ContactState:
     def kind(self) -> str:
         """What the state is: "straight", "sinusoidal", "helix" (around the hole), "partial contact" or "bridged".
 
-        Bridged is one in the vertical plane, over steps of the clearance.
+        Bridged is one in the vertical plane, over steps of the clearance. Of a curved hole "straight" is the rod that
+        lies along it, and "along the other side" one that does so elsewhere around the hole.
         """
         return kind_of(self.fine, self.turns)
 
@@ -183,6 +187,35 @@ class ContactState:
         return Peak(value.value, value.error, self._numbers[1].largest_pressure_at)
 
     @cached_property
+    def own_places(self) -> ContactState:
+        """The state in a curved hole with every cross-section at its own place along it.
+
+        Paths take the hole where the undeformed rod is: see :mod:`rodwell.analysis.off_wall.curved.own_places`.
+
+        Raises
+        ------
+        InputError
+            If the hole is straight.
+        NotConvergedError
+            If it could not be solved.
+        """
+        if self.problem.hole is None:
+            raise InputError("build", 0.0, "must not be 0: along a straight hole every place is like another")
+        coarse, fine = with_own_places(self.coarse), with_own_places(self.fine)
+        if coarse is None or fine is None:
+            what = "a limit point is near, or the curvature is too large for this shortening"
+            raise NotConvergedError(f"no state with its own places was found at F = {self.force:.8g} B/L²: {what}")
+        return ContactState(self.problem, coarse, fine)
+
+    @property
+    def place_errors(self) -> dict[str, float]:
+        """By how much numbers are off, with the hole where the undeformed rod is, by name; none if it is straight."""
+        if self.problem.hole is None:
+            return {}
+        own, names = self.own_places, ("energy", "shortening", "contact_total")
+        return {name: abs(getattr(own, name).value - getattr(self, name).value) for name in names}
+
+    @cached_property
     def certificate(self) -> ContactCertificate:
         """Balance of forces, signs of contact, and reactions by two routes."""
         return contact_certificate(self.fine)
@@ -233,8 +266,7 @@ def _fields(state: PatternedState, places: FloatArray) -> dict[str, FloatArray]:
     """Fields of a state on one set of elements at ``places`` (k,)."""
     x, y, pressure = position(state, places)
     problem = state.problem
-    n, stiffness = state.load + problem.axial_weight * problem.rod.lever(places), problem.rod.stiffness(places)
-    rod = in_space(x, y, n, problem.twist, stiffness, problem.rod.stiffness.derivative(places))
+    rod, stiffness = state.model.in_space(places, x, y, state.load), problem.rod.stiffness(places)
     gap = problem.rod.clearance(places) - np.hypot(x[0], y[0]) / problem.clearance
     return {
         "x": x[0], "y": y[0], "z": along_axis(state, places), "gap": gap, "angle": np.arctan2(y[0], -x[0]),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Any
 
+from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.errors import InputError
 from rodwell.problem.problem import Problem
@@ -55,7 +56,7 @@ class Way:
 
     def model(self, part: float) -> RodInHole:
         """The rod in its hole there."""
-        return RodInHole(self.problem(part), self.wall)
+        return rod_in_hole(self.problem(part), self.wall)
 
     def load(self, part: float) -> float:
         """The end force there."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from rodwell.analysis.off_wall.control import FORCE, NAMES, Control, shortening
+from rodwell.analysis.off_wall.curved.refused import refuse_holes
 from rodwell.errors import InputError, checked_number
 from rodwell.problem.problem import Problem
 from rodwell.problem.sections import refuse_sections
@@ -31,7 +32,7 @@ ALLOWED = f"a stiffness from {SOFTEST:g} to {STIFFEST:g} in units B = L = 1; lea
 
 def checked_problem(problem: Problem) -> None:
     """Raise if a rod has no load path here, with the reason."""
-    problem.refuse_curved("load paths off the wall are followed")
+    refuse_holes(problem)
     if not problem.bridges:
         _refuse_kinks(problem)
     if problem.outside:
@@ -102,6 +103,8 @@ def checked_wall(problem: Problem, stiffness: float) -> float:
     """Return the stiffness of the wall in B/L⁴, infinite for a hard one, or raise."""
     if stiffness == math.inf:
         return stiffness
+    if problem.hole is not None:
+        raise InputError("wall_stiffness", stiffness, "must be left out in a curved hole, whose wall is hard here")
     softest = max(SOFTEST_WALL, problem.lateral_weight / (DEEPEST * problem.clearance))
     allowed = (
         f"from {softest:.6g} to {STIFFEST_WALL:g} in B/L⁴ for this rod, or left out: a hard wall (a softer one gives "

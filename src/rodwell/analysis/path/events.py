@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from rodwell.analysis.beyond.between import around, nearest_first
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.control import FORCE, Control
-from rodwell.analysis.off_wall.state import BRIDGED, STRAIGHT, ContactState
+from rodwell.analysis.off_wall.state import BRIDGED, OTHER_SIDE, STRAIGHT, ContactState
+from rodwell.errors import NotConvergedError
 from rodwell.faces import drawn_in_space
 from rodwell.quantities.value import Value
 
@@ -21,6 +22,7 @@ LOADING, UNLOADING = "loading", "unloading"
 
 CRITICAL, LIFT_OFF, SNAP, FOLD, BRANCH_POINT = "critical", "lift_off", "snap", "fold", "branch_point"
 LOAD_PEAK = "load_peak"
+ENTERS, LEAVES = "enters", "leaves"
 TOUCHES, TOUCH_DOWN = "touches", "touch_down"
 
 MEANING = {
@@ -43,7 +45,20 @@ MEANING = {
 """Kinds of events, in words."""
 
 
-_ARTICLE = {"sinusoidal": "a ", "helix": "a "}
+ALONG_THE_HOLE = {CRITICAL: "the rod that lies along the hole buckles"}
+THROUGH_THE_PLANE = {
+    ENTERS: "the rod comes to lie in the vertical plane, without a jump",
+    LEAVES: "the rod leaves the vertical plane, without a jump",
+}
+"""Events in a curved hole, in words that tell more."""
+
+
+def unbuckled(curved: bool) -> str:
+    """The shape of a rod that has not buckled, in words."""
+    return "where it lies along the hole" if curved else "the straight shape"
+
+
+_ARTICLE = {"sinusoidal": "a ", "helix": "a ", OTHER_SIDE: "the shape "}
 
 
 @dataclass(frozen=True)
@@ -98,6 +113,10 @@ class PathPoint:
         The state there; None for the straight rod's buckling. After a snap, the state the rod has snapped to.
     met
         Whether the load meets the tolerance.
+    plane
+        "enters" or "leaves" at a branch point where states go over into the vertical plane, or out of it; else empty.
+    curved
+        Whether the hole is curved: where it has not buckled the rod is not straight there, but lies along the hole.
     """
 
     kind: str
@@ -107,16 +126,20 @@ class PathPoint:
     to: Destination | None = None
     state: ContactState | None = None
     met: bool = True
+    plane: str = ""
+    curved: bool = False
 
     @property
     def meaning(self) -> str:
         """What happens, in words."""
         if self.kind == CRITICAL and self.state is not None and self.state.kind == BRIDGED:
             return "the string that bridges steps of the clearance buckles sideways"
+        if self.to is None and self.curved:
+            return (ALONG_THE_HOLE | THROUGH_THE_PLANE).get(self.plane or self.kind, MEANING[self.kind])
         if self.to is None:
             return MEANING[self.kind]
         if self.to.kind == STRAIGHT:
-            return "the rod falls back to the straight shape"
+            return f"the rod falls back to {unbuckled(self.curved)}"
         return f"the rod snaps to {self.to.meaning}"
 
     def as_dict(self) -> dict[str, Any]:
@@ -188,5 +211,16 @@ class PathState:
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
-        more = {} if self.control.by_force else {"driven": self.control.value(self.state.fine.solved)}
+        more: dict[str, Any] = {}
+        if not self.control.by_force:
+            more["driven"] = self.control.value(self.state.fine.solved)
+        if self.state.problem.hole is not None:
+            more["place_errors"] = self._place_errors()
         return {"leg": self.leg, **self.state.as_dict(), **more, "stability_index": self.stability_index}
+
+    def _place_errors(self) -> dict[str, float] | None:
+        """:attr:`ContactState.place_errors`; None where no state with its own places was found."""
+        try:
+            return self.state.place_errors
+        except NotConvergedError:
+            return None

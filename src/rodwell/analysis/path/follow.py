@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 from rodwell.analysis.discrete import first_run
+from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.happening import END
-from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.path.bridged import bridging, farthest
 from rodwell.analysis.path.checks import (
     checked_bridging,
@@ -87,15 +88,21 @@ def load_path(
     disturbance out of the plane grows. States beyond are not computed, nor are twist and unloading taken. A step is
     taken at its place along the rod: that the rod is pushed along the hole by its shortening is left out.
 
+    In a curved hole (``problem.build``) the path begins with the rod that lies along the hole, from which energy and
+    shortening count. The hole beside the rod is taken where the undeformed rod is: ``ContactState.own_places`` has a
+    state without that. A rod in a drop may leave the wall before it buckles: then the path goes on in the vertical
+    plane, up to where a disturbance out of it grows.
+
     Raises
     ------
     InputError
-        For a rod outside the cylinder or on top of it, for loads out of range or order.
+        For a rod outside the cylinder or on top of it, for loads out of range or order, and for a curved hole along an
+        axis, out of the vertical plane, of a string, with a soft wall, or in which the rod lies only in tension.
     NotConvergedError
         If the straight rod's critical load, or the path's first state, could not be computed.
     """
     checked_problem(problem)
-    model = RodInHole(problem, checked_wall(problem, wall_stiffness))
+    model = rod_in_hole(problem, checked_wall(problem, wall_stiffness))
     rtol, way = checked_rtol(rtol), checked_control(problem, control, axial_stiffness, spring)
     if problem.bridges:
         checked_bridging(problem, control, unload_to, mirror)
@@ -119,7 +126,7 @@ def load_path(
             how = How(way, rtol, seeds, mode, told(UNLOADING))
             walks.append(walked(walks[0].last, model, until, unload_to, Leg(UNLOADING), how))
     ended = next((walk.ended for walk in walks if walk.ended != END), "")
-    events = tuple(event for walk in walks for event in walk.events)
+    events = tuple(replace(event, curved=problem.hole is not None) for walk in walks for event in walk.events)
     legs = tuple(walk.leg for walk in walks)
     return LoadPath(
         problem, until, unload_to, events, legs, not ended, ended, rtol, mirror, way.name, way.compliance,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.off_wall.conditions import PatternedState
-from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.path.events import LOADING, Leg
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.path.straightening import straight_state
@@ -54,7 +54,7 @@ def _travelled(run: list[PatternedState], whole: float, total: int) -> FloatArra
 
 def _runs(path: LoadPath, leg: Leg) -> Iterator[list[PatternedState]]:
     """Runs of a leg with the straight rod before it buckles, or after it has fallen back."""
-    model = RodInHole(path.problem, path.wall_stiffness)
+    model = rod_in_hole(path.problem, path.wall_stiffness)
     straight = [[straight_state(model, force) for force in ends] for ends in leg.straight]
     yield from straight if leg.name == LOADING else ()
     yield from leg.runs

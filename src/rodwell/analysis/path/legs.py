@@ -17,7 +17,9 @@ from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, contact_stat
 from rodwell.analysis.path.events import (
     BRANCH_POINT,
     CRITICAL,
+    ENTERS,
     FOLD,
+    LEAVES,
     LIFT_OFF,
     SNAP,
     TOUCH_DOWN,
@@ -169,7 +171,8 @@ def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
     beside = _beside_plane(path, sense, how, held)
     if beside is not None:
         kind = CRITICAL if last.model.soft and last.problem.lateral_weight > 0.0 else BRANCH_POINT
-        out.events.append(PathPoint(kind, load, (), out.leg.name, None, contact_state(beside)))
+        plane = "" if kind == CRITICAL else (ENTERS if beside.pattern.planar else LEAVES)
+        out.events.append(PathPoint(kind, load, (), out.leg.name, None, contact_state(beside), plane=plane))
         out.last = beside
         return
     _to(out, last, sense, how, load, held, fold=path.ended == FOLD)

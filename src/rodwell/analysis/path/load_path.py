@@ -12,7 +12,7 @@ import numpy as np
 
 from rodwell.analysis.beyond.between import state_at
 from rodwell.analysis.off_wall.control import FORCE, Control, shortening
-from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.path.barrier import Barrier, barrier
 from rodwell.analysis.path.checks import checked_value
@@ -187,7 +187,7 @@ class LoadPath(Shown):
         return sentences(self.problem, self.events)
 
     def _on(self, leg: Leg, value: float, control: Control) -> ContactState:
-        model = RodInHole(self.problem, self.wall_stiffness)
+        model = rod_in_hole(self.problem, self.wall_stiffness)
         if _straight(leg, value, control):
             return contact_state(straight_state(model, control.straight_load(value) or 0.0))
         return state_at(leg.near(value, control), value, control, f"{leg.name} path")

@@ -9,7 +9,7 @@ from rodwell.analysis.off_wall.soft import sunk
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, Destination, Leg, PathPoint
 from rodwell.analysis.path.legs import Walked, walked
 from rodwell.analysis.path.start import OnWall, arched, leaving_places, on_wall, released
-from rodwell.analysis.path.straightening import How
+from rodwell.analysis.path.straightening import How, leaves_lying, lying_state
 from rodwell.analysis.straight.without_wall import loads_without_wall
 from rodwell.errors import NotConvergedError
 from rodwell.quantities.value import Value
@@ -18,11 +18,17 @@ BEFORE = 0.2
 """How far below the load that its ends alone bear the straight rod in a soft wall is followed from, relative."""
 
 
+BEFORE_BUCKLING = 1.5
+"""Part of a tension under which a rod buckles, as one does that hangs and is heavy, from which on it is followed."""
+
+
 def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
     """The leg of growing compression."""
-    problem, leg, top = model.problem, Leg(LOADING), max(0.0, 0.5 * how.mode.force)
+    problem, leg, top = model.problem, Leg(LOADING), max(0.0, BEFORE_BUCKLING * how.mode.force)
     if model.soft and problem.lateral_weight > 0.0:
         return _into_soft_wall(model, until, leg, how)
+    if leaves_lying(problem, how.mode.force):
+        return _off_the_low_side(model, until, leg, how)
     control, sense = how.control, -1.0 if how.control.by_force else 1.0
     if (until - control.of_straight(how.mode.force)) * sense <= 0.0:
         begin = max(top, until) if control.by_force else control.of_straight(top)
@@ -32,11 +38,11 @@ def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
         return (until - control.value(state.solved)) * sense > 0.0
 
     begun, start = None, None
-    if problem.lateral_weight == 0.0:
+    if problem.untouched:
         start = arched(model, how.mode)
     elif leaving_places(problem):
         start = released(problem, mirror, how.rtol)
-    elif problem.pressed:
+    elif problem.pressed or problem.hole is not None:
         begun = on_wall(problem, 1, mirror, how.rtol, before, how.progress)
         start = None if begun is None else begun.start
     if start is None or not before(start):
@@ -54,6 +60,11 @@ def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
         to = Destination(begun.snap.kind, 0, begun.snap.energy, critical, 1, 1)
         out.events.insert(1, PathPoint(SNAP, critical, (), LOADING, to, begun.snap))
     return out
+
+
+def _off_the_low_side(model: RodInHole, until: float, leg: Leg, how: How) -> Walked:
+    """From the rod that lies on the wall of a curved hole, which it leaves in its plane before it buckles."""
+    return walked(lying_state(model, 0.0), model, how.control.of_straight(0.0), until, leg, how)
 
 
 def _into_soft_wall(model: RodInHole, until: float, leg: Leg, how: How) -> Walked:

@@ -57,8 +57,9 @@ def back_in_plane(state: PatternedState, sense: float) -> PatternedState | None:
     """The planar state beside one that has come back to the plane, in this sense of the load; None if it has not."""
     problem, shape = state.model.problem, state.solved.shape
     aside = float(np.max(np.abs(shape.cartesian[:, 1])))
-    arched, sunk = problem.lateral_weight == 0.0 and problem.isotropic_ends, state.model.soft and problem.twist == 0.0
-    if not (arched or sunk) or state.pattern.planar or aside > IN_PLANE:
+    arched, sunk = problem.untouched and problem.isotropic_ends, state.model.soft and problem.twist == 0.0
+    bent = problem.hole is not None and problem.twist == 0.0
+    if not (arched or sunk or bent) or state.pattern.planar or aside > IN_PLANE:
         return None
     load = state.load + sense * FARTHER * abs(state.load)
     pattern = replace(state.pattern, planar=True, turns=0)

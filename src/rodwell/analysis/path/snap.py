@@ -162,7 +162,8 @@ def flowed(
     pattern, nowhere = Pattern((False,), event.pattern.turns), np.zeros(0)
     elements = element_counts(model, nowhere, load, 1.0 / flow.elements, FEWEST_ELEMENTS)
     shape, _ = arranged(model, pattern, nowhere, load, sample, degree=FLOW_DEGREE, elements=elements)
-    stiffness = 0.0 if model.soft else flow.stiffness  # a soft wall is in the model already
+    # a soft wall is in the model already
+    stiffness = 0.0 if model.soft else flow.stiffness * model.firmness(load)
     row = control.row(shape.chain, value)
 
     def index(one: Solved) -> int:

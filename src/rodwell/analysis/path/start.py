@@ -14,6 +14,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.off_wall.arrange import arranged
 from rodwell.analysis.off_wall.changes import changed, growing_direction
 from rodwell.analysis.off_wall.conditions import UNHELD, PatternedState, conditions
+from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.state import ContactState, contact_state
@@ -67,7 +68,7 @@ def on_wall(
     forth: where the straight rod buckles it snaps to there. The state from which chains go on is the last one
     ``before`` the end of the path. ``tell`` is called with the end force of each state.
     """
-    model = RodInHole(problem)
+    model = rod_in_hole(problem)
 
     def told(force: float) -> None:
         if tell is not None:
@@ -104,7 +105,7 @@ def _stable_at(model: RodInHole, branch: Branch, force: float) -> ContactState |
 
 def leaving_places(problem: Problem) -> tuple[float, ...]:
     """Places at which a pressed rod leaves the wall as soon as it buckles: ball joints, loose ends, stiffness steps."""
-    if problem.lateral_weight == 0.0:
+    if problem.untouched:
         return ()
     ends = [s for end, s in zip(problem.ends, (0.0, 1.0), strict=True) if end in OFF_WALL_ENDS]
     return tuple(sorted([*ends, *map(float, problem.rod.stiffness_steps)]))
@@ -117,7 +118,7 @@ def released(problem: Problem, mirror: bool, rtol: float) -> PatternedState | No
     stable and from which on the load grows: what follows then is for the descent to find.
     """
     first, second = (HELD_INSTEAD.get(end, end) for end in problem.ends)
-    model = RodInHole(problem)
+    model = rod_in_hole(problem)
     branch = follow(replace(problem, ends=(first, second)), 1, until=None, mirror=mirror, rtol=rtol)
     for i in range(1, len(branch)):
         amplitude = _amplitude(branch[i])
@@ -141,7 +142,7 @@ def arched(model: RodInHole, mode: Mode) -> PatternedState | None:
     the wall. In the plane through the hole's axis it does so last, and to that plane contact turns it. None where
     the mode lies on both sides of the straight rod: there the wall is in its way at once.
     """
-    if model.problem.lateral_weight > 0.0 or not model.problem.isotropic_ends:
+    if not (model.problem.untouched and model.problem.isotropic_ends):
         return None
     sense = 1.0 if np.sum(mode.shape(_EVENLY)) > 0.0 else -1.0
     if np.min(sense * mode.shape(_EVENLY)) < -ONE_SIDED:

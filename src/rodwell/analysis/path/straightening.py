@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,11 +13,14 @@ from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.following import followed
 from rodwell.analysis.off_wall.happening import Followed
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.analysis.off_wall.pattern import Pattern, chain
 from rodwell.analysis.off_wall.steps import closes_with_slope
 from rodwell.analysis.straight.critical import Mode
-from rodwell.errors import NotConvergedError
+from rodwell.analysis.straight.lying import lies_between
+from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.stretches.carry import rim_fields
+from rodwell.numerics.stretches.newton import Solved
+from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 FLAT = 0.05
@@ -66,6 +69,40 @@ def straight_state(model: RodInHole, load: float) -> PatternedState:
     return found
 
 
+def lying_state(model: RodInHole, load: float) -> PatternedState:
+    """The same of a rod in a curved hole, whose states stay in the vertical plane."""
+    straight = straight_state(model, load)
+    pattern, shape = replace(straight.pattern, planar=True), straight.solved.shape
+    links, _ = chain(model.problem, model.given, pattern, straight.elements, shape.chain.degree)
+    planar = Solved(model, replace(shape, chain=links))
+    return PatternedState(pattern, straight.elements, planar)
+
+
+def leaves_lying(problem: Problem, buckling: float) -> bool:
+    """Whether a rod leaves the wall of a curved hole where it lies, before it buckles at an end force.
+
+    Raises
+    ------
+    InputError
+        If it does not lie there without an end force, or twist keeps it from leaving in its plane.
+    """
+    lowest = None if problem.hole is None else lies_between(problem)[0]
+    if lowest is None or lowest.value < buckling:
+        return False
+    if lowest.value >= 0.0:
+        raise InputError(
+            "build", problem.build, f"bends the hole so that the rod lies at its bottom only under a tension of "
+            f"{lowest.value:.6g} B/L² or more, and a load path begins without an end force: give more weight, or less "
+            "curvature",
+        )  # fmt: skip
+    if problem.twist != 0.0:
+        raise InputError(
+            "twist", problem.twist, f"must be 0: the rod leaves the wall at F = {lowest.value:.6g} B/L², before it "
+            "buckles, and with twist it does not do so in its plane",
+        )  # fmt: skip
+    return True
+
+
 def first_still(path: Followed) -> int | None:
     """The number of the first state of a path that is straight, if it began bent."""
     bent = [not (flat(state, STILL) or settles(state)) for state in path.states]
@@ -98,9 +135,14 @@ def flat(state: PatternedState, angle: float = FLAT) -> bool:
     shape, pattern = state.solved.shape, state.pattern
     if state.model.soft and state.problem.lateral_weight > 0.0:
         return False  # it has sunk into the wall: states of its own, which are followed
+    if pattern.planar and state.problem.hole is not None:
+        return False  # it has left the wall in its plane, or may: these states are followed, too
     if not pattern.full:
         return float(np.max(np.abs(shape.cartesian[:, :2] - [-1.0, 0.0]))) < angle
-    return pattern.full and not pattern.turns and float(np.ptp(shape.nodes[:, 1])) < angle
+    angles = shape.nodes[:, 1]
+    if state.problem.hole is not None:  # its low side and its high side are not alike
+        return not pattern.turns and float(np.max(np.abs(angles))) < angle
+    return not pattern.turns and float(np.ptp(angles)) < angle
 
 
 def settles(state: PatternedState) -> bool:

@@ -155,7 +155,7 @@ def geometry(
     angle = fields["xi1"] + _running((cos_eta - np.cos(drawn)) * sin_eta / problem.clearance, s)
     axes = frames(angle, drawn, fields["xi2"])
     (t1, d1, u1), (_, d0, v1) = (np.moveaxis(axes[name], 2, 0).copy() for name in ("R11", "R01"))
-    axis, across = _beside(problem, fields["z"])
+    axis, across = beside(problem, fields["z"])
     along = np.cross(across[:, 0], across[:, 1])
     there = np.concatenate([across, along[:, None]], axis=1)
     t1, d1, u1, d0, v1 = (np.einsum("mi,mic->mc", vectors, there) for vectors in (t1, d1, u1, d0, v1))
@@ -169,7 +169,7 @@ def geometry(
     )  # fmt: skip
 
 
-def _beside(problem: Problem, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+def beside(problem: Problem, z: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Axis (m, 3) and unit vectors across it (m, 2, 3) at distances z (m,) along it from the end s = 0."""
     if problem.hole is None:
         axis = np.stack([0.0 * z, 0.0 * z, z], axis=1)

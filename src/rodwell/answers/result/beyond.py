@@ -7,11 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rodwell.analysis.off_wall.curved.refused import in_such_a_hole
 from rodwell.analysis.off_wall.state import ContactState, PointForce, contact_state
 from rodwell.analysis.path.events import LOADING, SNAP, PathPoint
 from rodwell.analysis.path.follow import Progress, load_path
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.answers.result.computed import Computed
+from rodwell.answers.result.lying import followed_from
 from rodwell.case.applied import AppliedLoad
 from rodwell.errors import NotConvergedError, RodwellError
 from rodwell.quantities.value import Value
@@ -123,10 +125,10 @@ def beyond(computed: Computed) -> Beyond:
     path, why = followed(computed, progress)
     if path is None:
         return Beyond(None, why)
-    lift, section = computed.lift_off, rod_section(computed.case)
+    lift, section = off_at(computed), rod_section(computed.case)
     assert lift is not None
     events = tuple(step for one in path.events for step in _steps(path, one, section))
-    applied = tuple((load, _at_load(path, load, section)) for load in computed.case.applied if load.force < lift.force)
+    applied = tuple((load, _at_load(path, load, section)) for load in computed.case.applied if load.force < lift)
     return Beyond(path, "", events, applied)
 
 
@@ -136,9 +138,18 @@ def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, s
     ``progress`` is that of :func:`rodwell.load_path`; what it raises that is no error of the library ends it.
     """
     case = computed.case
-    if case.problem.hole is not None:
-        return None, "states off the wall are computed in straight holes only, and this one is curved"
-    if computed.lift_off is None:
+    if not in_such_a_hole(case.problem):
+        return None, (
+            "states off the wall of a curved hole are computed of a uniform rod where the hole has one curvature, in a "
+            "vertical plane (build)"
+        )
+    left = computed.left_before
+    if left is not None and left.value >= 0.0:
+        return None, (
+            "without an end force the curve presses the rod off the side of the hole where it was to lie, and there is "
+            "nothing that a load path could begin with"
+        )
+    if off_at(computed) is None:
         return None, "no lift-off was found on the first branch, so there is nothing beyond it"
     until, back = reach(computed)
     try:
@@ -153,14 +164,25 @@ def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, s
     return path, ""
 
 
+def off_at(computed: Computed) -> float | None:
+    """End force at s = 1 in B/L² at which the rod leaves the wall: at lift-off, or of a curved hole before it buckles.
+
+    None where neither was found. Of a rod that the curve presses off the wall at no load there is no path.
+    """
+    if computed.lift_off is not None:
+        return computed.lift_off.force
+    left = computed.left_before
+    return left.value if left is not None and followed_from(computed.case.problem, left) else None
+
+
 def reach(computed: Computed) -> tuple[float, float]:
     """End forces at s = 1 in B/L² to which the rod is loaded, and unloaded."""
-    case, lift = computed.case, computed.lift_off
+    case, lift = computed.case, off_at(computed)
     assert lift is not None
     half = -case.problem.axial_weight * float(case.problem.rod.lever(np.array([0.5]))[0])
     asked = [load.force for load in case.applied] + ([] if case.until is None else [case.until])
     reach = REACH_ARCHED if case.problem.untouched else REACH
-    until = min([half - reach * (half - lift.force), *asked])
+    until = min([half - reach * (half - lift), *asked])
     back = half - BACK * (half - computed.buckling.value)
     return until, max(back, computed.buckling.value)
 

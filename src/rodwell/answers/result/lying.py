@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from rodwell.analysis.branch.special import LIFT_OFF, SpecialPoint
 from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
+from rodwell.analysis.off_wall.curved.refused import in_such_a_hole
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.analysis.straight.lying import lies_between
 from rodwell.answers.result.key_number import KeyNumber, force_scale
@@ -90,3 +91,8 @@ def lying_numbers(lying: LyingRod) -> list[KeyNumber]:
         label = "Above this the rod, as it lies, loses its stability, end force at s = 1"
         out.append(KeyNumber("stability_lost_in_tension", label, tension.load, "force", scale))
     return out
+
+
+def followed_from(problem: Problem, left: Peak) -> bool:
+    """Whether a load path follows a rod that leaves the wall of its hole before it buckles, at this end force."""
+    return in_such_a_hole(problem) and not problem.on_top and problem.twist == 0.0 and left.value < 0.0

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from rodwell.analysis.off_wall.state import HELIX, PARTIAL, STRAIGHT
-from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, PathPoint
+from rodwell.analysis.off_wall.state import HELIX, OTHER_SIDE, PARTIAL, STRAIGHT
+from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, TOUCHES, UNLOADING, PathPoint, unbuckled
 from rodwell.analysis.path.load_path import ASSUMPTIONS, HARD
-from rodwell.analysis.path.words import gradual, gradually
+from rodwell.analysis.path.words import gradually, is_gradual
 from rodwell.answers.result.beyond import Beyond, StateBeyond, Step
 from rodwell.answers.words.verdict import load_text
 from rodwell.answers.words.wording import forces_of, place_text, quantity, size_text
@@ -46,8 +46,7 @@ def story(case: Case, found: Beyond) -> str:
     at_steps = case.problem.rod.stepped and case.problem.lateral_weight > 0.0
     stepped = "as soon as it buckles, at steps of its stiffness, " if at_steps else ""
     parts = [] if lift is None else [f"lifts off {stepped}at {_load(case, lift.force)}"]
-    told = gradual(case.problem)
-    parts += [gradually(one, _load(case, one.force)) for one in up if one.kind in told]
+    parts += [gradually(one, _load(case, one.force)) for one in up if is_gradual(case.problem, one)]
     if not snaps:
         known = f"at {_load(case, Value(path.until))}, as far as it was followed"
         last = known if path.reached else "to the last state found"
@@ -74,7 +73,9 @@ def _back(case: Case, found: Beyond, down: Sequence[PathPoint]) -> str:
         return f" that is still there at {_load(case, Value(back or 0.0))} on unloading" if known else ""
     assert leaves.to is not None
     then = (
-        ", where the rod falls back to the straight shape" if leaves.to.kind == STRAIGHT else f", then {_named(leaves)}"
+        f", where the rod falls back to {unbuckled(leaves.curved)}"
+        if leaves.to.kind == STRAIGHT
+        else f", then {_named(leaves)}"
     )
     return f" that stays until {_load(case, leaves.force)} on unloading{then}"
 
@@ -90,7 +91,10 @@ def _named(snap: PathPoint) -> str:
     assert snap.to is not None
     count = abs(snap.to.turns)
     turns = f" of {count} turn{'s' if count != 1 else ''}" if count else ""
-    names = {HELIX: "a helix", STRAIGHT: "the straight shape", PARTIAL: "another state of partial contact"}
+    names = {
+        HELIX: "a helix", STRAIGHT: unbuckled(snap.curved), PARTIAL: "another state of partial contact",
+        OTHER_SIDE: f"the shape {OTHER_SIDE}",
+    }  # fmt: skip
     return f"{names.get(snap.to.kind, 'a sinusoidal shape on the wall')}{turns}"
 
 
@@ -105,7 +109,8 @@ def _contact(steps: Sequence[Step]) -> str:
     known = [one.state.state for one in steps if one.state is not None]
     if known and known[-1].fine.everywhere:
         return "full contact"
-    lost = bool(known) and known[-1].contact_total.value <= known[-1].contact_total.error
+    anew = bool(steps) and steps[-1].event.kind == TOUCHES  # without force at first
+    lost = bool(known) and not anew and known[-1].contact_total.value <= known[-1].contact_total.error
     return "its side of the hole, off the wall," if lost else "partial contact"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rodwell.analysis.off_wall.curved.refused import in_such_a_hole
 from rodwell.analysis.state.wall import lying_step_loads
 from rodwell.analysis.straight.lying import off_at_steps
 from rodwell.answers.result.answer import Answer
@@ -64,13 +65,13 @@ def _places(answer: Answer) -> str:
 
 def left_out(answer: Answer) -> str:
     """What a straight hole's answer has and this one has not."""
-    parts = ["states off the wall", "the load without the wall's help", "moments in the cylinder"]
+    moments = "moments in the cylinder" + ("" if answer.case.cylinder is None else " and its stress")
+    parts = [] if in_such_a_hole(answer.case.problem) else ["states off the wall"]
+    parts += ["the load without the wall's help", moments]
     if not answer.sensitivities:
         parts.append("derivatives by the inputs")
         if answer.case.uncertain:
             parts[-1] += ", so that the uncertainties given are not carried through"
     elif answer.case.problem.sections:
         parts.append("derivatives by the data of each section")
-    if answer.case.cylinder is not None:
-        parts[2] += " and its stress"
     return f"Not told of a curved hole: {', '.join(parts[:-1])}, and {parts[-1]}."

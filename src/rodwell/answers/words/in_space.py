@@ -22,6 +22,9 @@ ROUND = 2.0 * math.pi
 GIVES_WAY = "there it loses its stability and takes another shape, not given here"
 
 
+NOT_GIVEN = ": what it does beyond that is not given"
+
+
 def what_ends(lying: LyingRod) -> str:
     """What ends the way of the rod as it lies, as a noun."""
     if lying.buckled is not None:
@@ -58,7 +61,7 @@ def lies_until(a: Assessment, lying: LyingRod) -> str:
     if lying.buckled is not None:
         return f"{text}; there it buckles"
     if end.kind == LIFT_OFF:
-        return f"{text}; there it leaves the wall at {_where(a.case, end)}: what it does beyond that is not given"
+        return f"{text}; there it leaves the wall at {_where(a.case, end)}{NOT_GIVEN}"
     return f"{text}; {GIVES_WAY}"
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED, STRAIGHT, Assessment, AtLoad
-from rodwell.answers.words.in_space import lies_from, lies_until, what_ends
+from rodwell.answers.result.lying import followed_from
+from rodwell.answers.words.in_space import NOT_GIVEN, lies_from, lies_until, what_ends
 from rodwell.answers.words.steps import IF_HELD, held
 from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
 from rodwell.case.applied import AppliedLoad
@@ -94,15 +95,14 @@ def _range_in_curved_hole(a: Assessment) -> str:
     else:
         text = f"The rod lies along the hole, {what}, until the compression{said.at_end} reaches {said.size(load)}"
     text += said.other(load)
-    return text if left is None else f"{text}; there it leaves {_side(a, left.s)}"
+    if left is None:
+        return text
+    return f"{text}; there it leaves {_side(a, left.s)}{'' if followed_from(a.case.problem, left) else NOT_GIVEN}"
 
 
 def _side(a: Assessment, s: float) -> str:
     """The side of a curved hole that the rod leaves, and where first: the curve presses it away from the wall."""
-    return (
-        f"the {side_of(a.case)} side at {place_text(a.case, Value(s))}, pressed away from it by the curve: what it "
-        "does beyond that is not given"
-    )
+    return f"the {side_of(a.case)} side at {place_text(a.case, Value(s))}, pressed away from it by the curve"
 
 
 def in_tension(a: Assessment) -> str:
@@ -116,9 +116,9 @@ def in_tension(a: Assessment) -> str:
     if said.compression(load).value > 0.0:
         return (
             f"It lies there only if the compression{said.at_end} is at least {said.size(load)}{said.other(load)}: "
-            f"under less the rod leaves {_side(a, off.s)}."
+            f"under less the rod leaves {_side(a, off.s)}{NOT_GIVEN}."
         )
-    return f"Under more than {said.load(load, other=True)} the rod leaves {_side(a, off.s)}."
+    return f"Under more than {said.load(load, other=True)} the rod leaves {_side(a, off.s)}{NOT_GIVEN}."
 
 
 def _window(a: Assessment) -> str:

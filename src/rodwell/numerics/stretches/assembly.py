@@ -7,8 +7,8 @@ A model offers, in units where the disc has radius 1,
   and two derivatives, and from what is ``given`` in each element, (g, e, 1), or g numbers where all are alike;
 * ``drift(s, u, mixed, given)``: the derivative of that gradient by s at the same u and load, (f, 3, e, q); that of the
   density's derivative by the load vanishes;
-* ``rim_reaction(s, rate, bend, given)``: what a free rod of the rim's shape would exert radially at a cut, from φ′ and
-  φ″ there: moment, its derivatives by φ′ and by the place, outward force; see :func:`_react`.
+* ``rim_reaction(s, angle, rate, bend, given)``: what a free rod of the rim's shape would exert radially at a cut, from
+  φ, φ′ and φ″ there: moment, its derivatives by φ, φ′ and the place, outward force; see :func:`_react`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rodwell.numerics.stretches.basis import ENDS, bent, reference_element
-from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIAL_SLOPE, Shape, cartesian_curvature
+from rodwell.numerics.stretches.chain import ANGLE, ANGLE_RATE, RADIAL_SLOPE, Shape, cartesian_curvature
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 RIM_SLOTS = np.array([1, 3, 5, 7])
@@ -60,8 +60,8 @@ class Assembled:
     ``by_break`` (n, 4, m); ``plain`` (n, 4): the gradient before bubbles are condensed, whose held entries are
     reactions. ``work_by_break`` (m,), ``work_by_load`` and ``work_residual``: derivatives of ``energy_by_load`` besides
     ``by_load``, which is that by the nodes, and what it lacks as long as the bubbles are not in equilibrium.
-    ``moments``, ``moment_rates``, ``moment_shifts`` and ``forces`` (m,): radial reactions at the moving nodes, see
-    :func:`_react`.
+    ``moments``, ``moment_turns``, ``moment_rates``, ``moment_shifts`` and ``forces`` (m,): radial reactions at the
+    moving nodes, see :func:`_react`.
     """
 
     shape: Shape
@@ -78,6 +78,7 @@ class Assembled:
     work_residual: float
     groups: tuple[Condensed, ...]
     moments: FloatArray
+    moment_turns: FloatArray
     moment_rates: FloatArray
     moment_shifts: FloatArray
     forces: FloatArray
@@ -113,7 +114,7 @@ def assemble(model: Any, shape: Shape) -> Assembled:
     diagonal[1:] += halves[:, 1, :, 4:8]
     out = Assembled(
         shape, energy, by_load, diagonal, halves[:, 1, :, :4], nodal[..., 0], nodal[..., -2], shift, nodal[..., -1],
-        work_by_break, float(work[-1]), float(work[0]), tuple(groups), *np.zeros((4, chain.moving.size)),
+        work_by_break, float(work[-1]), float(work[0]), tuple(groups), *np.zeros((5, chain.moving.size)),
     )  # fmt: skip
     if chain.free.size:
         out.diagonal += _curvature(shape, groups[-1])
@@ -268,8 +269,8 @@ def bubbles_of(out: Assembled, nodes: FloatArray, breaks: FloatArray, load: floa
 def _react(model: Any, out: Assembled) -> None:
     """Radial reactions at the moving nodes, that must vanish or be positive.
 
-    The moments, derivative of the energy by the radial slope, zero in equilibrium; their derivatives by the angle's
-    rate and by the place of the cut, from stretches on the rim; and the outward forces with which the rod presses on
+    The moments, derivative of the energy by the radial slope, zero in equilibrium; their derivatives by the angle, its
+    rate and the place of the cut, from stretches on the rim; and the outward forces with which the rod presses on
     the rim. The energy of a stretch on the rim does not know r and r′: its part comes from the cut, ``rim_reaction``.
     """
     shape, chain = out.shape, out.shape.chain
@@ -280,9 +281,9 @@ def _react(model: Any, out: Assembled) -> None:
         node, at = chain.moving[cuts.number], cuts.element
         bend = np.sum(bent(shape.local(at)[:, 0]) * reference_element(chain.degree).end_bends[cuts.ahead], axis=1)
         bend = bend / shape.lengths[at] ** 2
-        given, rate = chain.given[at].T, shape.nodes[node, ANGLE_RATE]
-        reaction = model.rim_reaction(shape.places[node], rate, bend, given)
+        given, (angle, rate) = chain.given[at].T, shape.nodes[node][:, [ANGLE, ANGLE_RATE]].T
+        reaction = model.rim_reaction(shape.places[node], angle, rate, bend, given)
         sign = 2.0 * cuts.ahead - 1.0
-        totals = out.moments, out.moment_rates, out.moment_shifts, out.forces
+        totals = out.moments, out.moment_turns, out.moment_rates, out.moment_shifts, out.forces
         for total, part in zip(totals, reaction, strict=True):
             np.add.at(total, cuts.number, sign * part)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rodwell.numerics.stretches.assembly import Assembled
-from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIAL_SLOPE, Chain
+from rodwell.numerics.stretches.chain import ANGLE, ANGLE_RATE, RADIAL_SLOPE, Chain
 from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
 
 WIDTH = 8
@@ -164,6 +164,7 @@ def bordered(out: Assembled, row: Row) -> Bordered:
     lines[breaks, moving] = out.diagonal[moving, RADIAL_SLOPE]
     lines[breaks, moving - 1] = out.below[moving - 1, RADIAL_SLOPE]
     lines[breaks, moving + 1] = out.below[moving, :, RADIAL_SLOPE]
+    lines[breaks, moving, ANGLE] += out.moment_turns
     lines[breaks, moving, ANGLE_RATE] += out.moment_rates
     lines *= free
     small = np.empty((m + 1, m + 1))

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from rodwell.analysis.off_wall.state import STRAIGHT
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP
-from rodwell.analysis.path.words import gradual
+from rodwell.analysis.path.words import is_gradual
 from rodwell.analysis.space.geometry import upwards
 from rodwell.answers.result.beyond import Beyond, StateBeyond
 from rodwell.answers.words.wording import forces_of
@@ -52,7 +52,6 @@ def pictured(found: Beyond) -> list[StateBeyond]:
 
     Of a rod that nothing presses to the wall, what happens without a jump as the load grows.
     """
-    steadily = () if found.path is None else gradual(found.path.problem)
     chosen: list[StateBeyond] = []
     last: StateBeyond | None = None
     for one in found.events:
@@ -60,7 +59,8 @@ def pictured(found: Beyond) -> list[StateBeyond]:
             chosen.append(last)
         there = one.state
         taken = one.before or one.event.kind == SNAP or (one.event.kind == LIFT_OFF and not chosen)
-        taken |= one.event.kind in steadily and one.event.leg == LOADING
+        steady = found.path is not None and is_gradual(found.path.problem, one.event)
+        taken |= steady and one.event.leg == LOADING
         if there is not None and taken and there.state.kind != STRAIGHT:
             chosen.append(there)
         last = there

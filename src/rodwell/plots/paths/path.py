@@ -11,7 +11,7 @@ from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, SNAP, UNLOADING, Pa
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.case.case import Case
 from rodwell.plots.paths.axes import Units, across_of, units_of
-from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
+from rodwell.plots.style import GREY, INK, MODES, WARN, bends, new_axes
 from rodwell.problem.words import ends_text
 from rodwell.quantities.text import minus
 
@@ -48,8 +48,9 @@ def plot_path(result: LoadPath, ax: Any = None, case: Case | None = None) -> Any
     ax.set_xlabel(units.across)
     ax.set_ylabel(units.up)
     problem = result.problem
-    twist = f", T₁ = {problem.twist:g} B/L" if problem.twist else ""
-    title = f"γ = {problem.weight:g}, α = {problem.alpha:g}°, Δ/L = {problem.clearance:g}{twist}, {ends_text(problem)}"
+    more = [f"T₁ = {problem.twist:g} B/L"] if problem.twist else []
+    parts = [f"γ = {problem.weight:g}, α = {problem.alpha:g}°, Δ/L = {problem.clearance:g}", *more]
+    title = ", ".join([*parts, *bends(problem).values(), ends_text(problem)])
     ax.set_title(minus(title), loc="left", fontsize=9.5)
     ax.margins(x=0.03, y=0.05)
     ax.legend(loc="best")
