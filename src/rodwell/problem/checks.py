@@ -138,10 +138,6 @@ def _check_hole(problem: Any) -> None:
     hole.check(problem.clearance)
     if hole.straight:
         return
-    if problem.floats:
-        raise InputError(
-            "floats", True, "must be False in a curved hole: rods that float are computed in straight ones"
-        )
     refuse_off_wall(problem.ends, "the states of a rod in a curved hole")
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "must be 0 in a curved hole: coils are computed in straight ones")

@@ -17,6 +17,16 @@ def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
     return f"{ends}, rod floats: pressed to the upper side" if problem.floats else ends
 
 
+def side_of_wall(problem: Problem) -> str:
+    """The side of the hole that the rod lies on before it buckles: "low" or "high"."""
+    return "high" if problem.on_top != problem.floats else "low"
+
+
+def counted_around(problem: Problem) -> tuple[str, str]:
+    """From which side of the hole ξ₂ counts, and which way, looking towards s = 0: "low", "left", or the others."""
+    return ("high", "right") if problem.floats else ("low", "left")
+
+
 def hole_text(problem: Problem) -> str:
     """Whether the hole is straight or curved, in words."""
     return "straight hole" if problem.hole is None else "curved hole"
