@@ -64,8 +64,9 @@ class Problem(Refusals):
         uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
         ``poisson`` give C of torsion ratio 1. A clearance ratio that all share goes into ``clearance``; where it has
         steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
-        computed of rods that stay on the wall is refused. In a curved hole each section has one stiffness, weight and
-        torsion, and all have one clearance. None given: a uniform rod.
+        computed of rods that stay on the wall is refused. So does it where it begins to float: a section of negative
+        weight ratio, beside others of positive ones, lies on the upper side; the ends stay at the bottom. In a curved
+        hole each section has one stiffness, weight and torsion, and all have one clearance. None given: a uniform rod.
     build, walk
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
         turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the
@@ -127,8 +128,8 @@ class Problem(Refusals):
 
     @cached_property
     def bridges(self) -> bool:
-        """Whether the clearance has steps, over which a string leaves the wall."""
-        return bool(self.sections) and self.rod.clearance_steps.size > 0
+        """Whether a string leaves the wall: over steps of the clearance, or between sections that sink and float."""
+        return bool(self.sections) and (self.rod.clearance_steps.size > 0 or self.rod.mixed)
 
     @property
     def tapered(self) -> bool:
@@ -215,6 +216,8 @@ class Problem(Refusals):
     @property
     def heaviest(self) -> float:
         """Max wₐ, 0: by how much compression may be larger somewhere along the rod than at s = 1."""
+        if self.sections and self.rod.mixed:
+            return float(np.max(-self.axial_weight * self.rod.lever(self.rod.breaks)))
         return max(self.hung_weight, 0.0)
 
     @property

@@ -32,7 +32,7 @@ def wavenumbers(model: RodInHole, load: float) -> FloatArray:
     Where a section tapers, those of its least stiffness and largest weight.
     """
     problem, rod = model.problem, model.problem.rod
-    b, q, radius, breaks = rod.ranges["stiffness"][0], rod.ranges["weight"][1], model.given[:, -1], rod.breaks
+    b, q, radius, breaks = rod.ranges["stiffness"][0], rod.sizes_of_weight, model.given[:, -1], rod.breaks
     wa, bed = problem.axial_weight, np.sqrt(problem.lateral_weight * q / (b * problem.clearance * radius))
     if model.soft:
         bed = np.maximum(bed, SOFT_WALL**2 * np.sqrt(model.stiffness / b))

@@ -33,6 +33,9 @@ INSET = 1e-12
 
 _RULE = np.polynomial.legendre.leggauss(ORDER)
 
+ON_AXIS = 1e-300
+"""Distance from the hole's axis, in L, below which nothing is in contact: the direction outwards is none there."""
+
 
 @dataclass(frozen=True)
 class ContactCertificate:
@@ -145,7 +148,7 @@ def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
     half, middle = 0.5 * np.diff(grid), 0.5 * (grid[1:] + grid[:-1])
     s = (middle[:, None] + half[:, None] * points).ravel()
     x, y, pressure = position(state, s)
-    weight, outward = problem.rod.weight(s), pressure / np.hypot(x[0], y[0])
+    weight, outward = problem.rod.weight(s), pressure / np.maximum(np.hypot(x[0], y[0]), ON_AXIS)
     density = np.stack([
         problem.foundation * weight - outward * x[0], -outward * y[0], problem.axial_weight * weight
     ])  # fmt: skip
