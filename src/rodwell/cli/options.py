@@ -230,8 +230,9 @@ class OutPath(click.Path):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path."""
         if not str(value).strip() and not isinstance(value, Path):
-            what = 'is empty; name a folder ("." is the current one), or leave the option out'
-            raise InputError("--out" if param is None else param.opts[0], value, what)
+            option = "--out" if param is None else param.opts[0]
+            kind = 'a folder ("." is the current one)' if option == "--out" else "a file"
+            raise InputError(option, value, f"is empty; name {kind}, or leave the option out")
         return super().convert(value, param, ctx)
 
 
