@@ -13,7 +13,7 @@ import pytest
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from rodwell import InputError, Problem, critical_loads, follow, load_path
+from rodwell import InputError, NotConvergedError, Problem, critical_loads, follow, load_path
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import BRIDGED, ContactState, contact_state
 from rodwell.analysis.path.bridging import bridged
@@ -205,3 +205,13 @@ def test_what_is_computed_of_rods_on_the_wall_is_refused() -> None:
         load_path(problem.but(alpha=0.0))
     with pytest.raises(InputError, match="where some sections sink and others float"):
         load_path(problem.but(twist=1.0), until=-30.0)
+
+
+def test_an_end_that_slides_around_the_wall_does_not_stay_at_the_bottom_with_a_section_that_floats() -> None:
+    """A pendulum the wrong way up: nothing holds it, however short the part of it that floats and however light."""
+    problem = Problem(1800.0, 34.0, sections=((0.5, 1, 1), (0.5, 1, -0.7)))
+    with pytest.raises(NotConvergedError, match="rolls up with the section beside it"):
+        load_path(problem.but(ends=("clamped", "free")))
+    assert load_path(problem.but(ends=("clamped", "pinned"))).first("critical") is not None
+    turned = problem.but(ends=("free", "clamped"))  # the end that sinks may slide
+    assert load_path(turned).legs[0].runs[0][0].solved.index == 0

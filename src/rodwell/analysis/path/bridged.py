@@ -69,6 +69,12 @@ def bridging(model: RodInHole, until: float, rtol: float, progress: Callable[[fl
             f"how the string lies {where_it_bridges(model.problem)} at F = {begin:.8g} B/L² was not found: no state "
             "whose contacts all push and that keeps inside the hole"
         )
+    if start.solved.index:
+        raise NotConvergedError(
+            f"at F = {begin:.8g} B/L², where nothing is compressed, the string does not stay in the vertical plane: an "
+            "end at the bottom that may slide around the wall (guided or free) rolls up with the section beside it, "
+            "which floats; clamp or pin that end"
+        )
     out = Walked(Leg(LOADING, [[start]]), last=start, ended=END)
     if begin == until:
         return out
