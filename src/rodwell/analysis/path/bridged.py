@@ -120,9 +120,8 @@ def _first_loss(start: PatternedState, until: float, progress: Callable[[float],
         more = followed(again, until, largest=largest, progress=progress)
         path = Followed(kept + more.states, events + more.events, more.ended, more.along)
     if path.ended == BRANCH_POINT:
-        path.ended = (
-            f"several disturbances begin to grow near F = {path.last.load:.8g} B/L², the first of them not told"
-        )
+        grown = next((state.load for state in path.states if state.solved.index), path.last.load)
+        path.ended = f"several disturbances begin to grow near F = {grown:.8g} B/L², the first of them not told"
     return path
 
 
