@@ -16,7 +16,7 @@ HERE = Path(__file__).parent
 
 
 def main() -> int:
-    names = ["spine", "peers", "scaling", "off_wall"]
+    names = ["spine", "peers", "scaling", "off_wall", "inclined"]
     if find_spec("bifpy") is None:
         print("AUTO-07p is left out: pip install bifpy==0.3.0 (needs gfortran and make) to measure it too.")
     else:

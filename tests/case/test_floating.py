@@ -6,15 +6,20 @@ exchanged and the load at the other end.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 import pytest
 
 from rodwell import Case, InputError, Problem, answer, certify, critical_loads, follow, sensitivities
+from rodwell.answers.result.bridged import bridged_answer
+from rodwell.answers.words.bridged import bridged_sentences
 from rodwell.answers.words.meaning import sentences
 from rodwell.plots.sketch import plot_sketch
+from rodwell.problem.hole import Hole
 from rodwell.report.reports.front import inputs_in_words
+from rodwell.strength.section import RodSection
 
 HOLE = {"diameter": "150 mm", "angle_from_vertical": "62 deg"}
 ROD = {"length": "12 m", "outer_diameter": "60 mm", "inner_diameter": "56 mm", "youngs_modulus": "70 GPa"}
@@ -113,6 +118,30 @@ def test_the_answer_in_the_users_words() -> None:
     assert plot_sketch(found.case).axes[0].texts
 
 
+def test_round_a_drop() -> None:
+    """Heights for the pressures from the hole in space as it was given; words on which side the rod lies."""
+    hole = {**HOLE, "build": "-10 deg/30 m"}
+    found = answer(Case.from_dict({
+        "rod": {**ROD, "density": "2700 kg/m^3", "ends": "clamped-pinned"}, "hole": hole,
+        "mud": {"outside": "1200 kg/m^3"},
+    }))  # fmt: skip
+    state, section = found.at_lift_off, found.assessment.section
+    assert state is not None
+    assert isinstance(section, RodSection)
+    s, bend = np.linspace(0.0, 1.0, 9), -math.radians(10.0) * 12.0 / 30.0
+    fields, axis = state.fields(s), Hole.arc(62.0, bend)
+    place = 0.5 - 0.5 / (1.0 - found.case.problem.clearance * bend) + fields["z"]
+    n1, n2, _ = axis.frame(place).transpose(1, 0, 2)
+    angle = fields["xi2"][:, None]
+    height = (axis.points(place) + found.case.problem.clearance * (np.cos(angle) * n1 - np.sin(angle) * n2))[:, 2]
+    assert np.ptp(section.drop(fields) / 12.0 + height) < 1e-9
+    assert section.drop(found.assessment.at_buckling.fields(np.array([1.0])))[0] == pytest.approx(0.0, abs=1e-12)
+    text = " ".join(sentences(found))
+    assert "the rod leaves the high side at the bottom, pressed away from it by the curve" in text
+    assert "of the high side; the rod lies up to" in text
+    assert plot_sketch(found.case).axes[0].texts
+
+
 def test_without_dimensions() -> None:
     data = {"dimensionless": {"weight": -15.0, "alpha": 60.0}, "load": {"applied": -90.0}}
     found = Case.from_dict(data).problem
@@ -120,18 +149,39 @@ def test_without_dimensions() -> None:
 
 
 def test_what_stays_refused() -> None:
-    with pytest.raises(InputError, match="straight holes only") as caught:
-        Case.from_dict({
-            "rod": {**ROD, "density": "2700 kg/m^3"}, "hole": {**HOLE, "build": "3 deg/30 m"},
-            "mud": {"outside": "1200 kg/m^3"},
-        })  # fmt: skip
-    assert caught.value.field == "mud.outside"
-    heavy, light = ({"outer_diameter": "60 mm", "youngs_modulus": "70 GPa", "length": "6 m", **more}
-                    for more in ({"inner_diameter": "0 mm"}, {"inner_diameter": "56 mm"}))  # fmt: skip
-    with pytest.raises(InputError, match="unlike the string as a whole"):
-        Case.from_dict({
-            "string": [{"density": "2700 kg/m^3", **heavy}, {"density": "2700 kg/m^3", **light}],
-            "hole": HOLE, "mud": {"outside": "1200 kg/m^3"},
-        })  # fmt: skip
     with pytest.raises(InputError, match="floats=True"):
         Problem(-15.0, 60.0)
+
+
+SECTION = {"outer_diameter": "60 mm", "youngs_modulus": "70 GPa", "length": "6 m", "density": "2700 kg/m^3"}
+
+
+def in_part(**more: Any) -> Case:
+    """Heavy pipe, empty pipe, heavy pipe, in brine."""
+    heavy, light = ({**SECTION, "inner_diameter": bore} for bore in ("0 mm", "56 mm"))
+    hole = {**HOLE, "diameter": "80 mm", **more}
+    return Case.from_dict({"string": [heavy, light, heavy], "hole": hole, "mud": {"outside": "1200 kg/m^3"}})
+
+
+def test_a_string_that_floats_in_part() -> None:
+    """Weights by hand; where it lies, and when it buckles, in words."""
+    found = in_part()
+    sinks = 9.80665 * (2700.0 - 1200.0) * CIRCLE
+    assert found.scales is not None
+    assert found.problem.weight * found.scales.factor("force_per_length") == pytest.approx(sinks, rel=1e-12)
+    ratios = [section[2] for section in found.problem.sections]
+    assert ratios == pytest.approx([1.0, -LIFT / sinks, 1.0], rel=1e-12)
+    text = bridged_sentences(bridged_answer(found))
+    assert "leaves the lower side of the hole where it begins to float, and buckles sideways at" in text[0]
+    assert "it lies on the lower side from 0 m to " in text[1]
+    assert "on the upper side at 9.00" in text[1]  # hardly unlike from both ends
+    assert "Not computed where some sections sink and others float" in " ".join(text)
+
+
+def test_what_is_not_computed_of_a_string_that_floats_in_part() -> None:
+    given = {"angle_from_vertical": "100 deg", "wall_stiffness": "1 MPa", "build": "1 deg/30 m"}
+    why = {"build": "must all sink or all float in a curved hole"}
+    for key, value in given.items():
+        with pytest.raises(InputError, match=why.get(key, "where some sections sink and others float")) as caught:
+            in_part(**{key: value})
+        assert caught.value.field == ("string" if key in why else f"hole.{key}")

@@ -10,6 +10,8 @@ import pytest
 from rodwell.errors import InputError
 from rodwell.problem.axis import tabulate
 from rodwell.problem.hole import Hole
+from rodwell.survey.path import path_of_survey
+from rodwell.survey.survey import Survey
 
 ALONG = np.linspace(-0.01, 1.01, 41)
 RADIUS, PITCH = 0.7, 0.3
@@ -168,3 +170,21 @@ def test_a_table_is_refined_until_it_is_resolved() -> None:
     assert axis.length == pytest.approx(11.0, abs=1e-13)
     assert np.allclose(axis.at(np.array([5.5]))[2], [[5.5, 0.0, 0.0]], atol=1e-13)
     assert axis.error < 1e-13
+
+
+@pytest.mark.parametrize("name", ["arc", "points", "stations", "drop"])
+def test_upside_down_is_turned_by_half_a_turn_and_its_high_side_is_the_low_one(name: str) -> None:
+    """Heights and tangents change their sign, normals are −N1, −N2 turned along: a mirror would leave one of these."""
+    if name == "stations":
+        survey = Survey.of([0.0, 100.0, 200.0], [52.0, 44.0, 36.0], [70.0, 78.0, 80.0])
+        hole = Hole.through(path_of_survey(survey).piece(0.0, 200.0).axis)
+    else:
+        hole = holes()[name]
+    turned, half_turn = hole.upside_down, np.array([1.0, -1.0, -1.0])
+    places = np.linspace(0.0, 1.0, 21)
+    assert turned.alpha == pytest.approx(180.0 - hole.alpha, abs=1e-9)
+    np.testing.assert_allclose(turned.curvatures(places), -hole.curvatures(places), atol=1e-9)
+    signs = np.array([-1.0, -1.0, 1.0])[:, None]
+    np.testing.assert_allclose(turned.frame(places), signs * half_turn * hole.frame(places), atol=1e-10)
+    ways = (np.diff(one.points(places), axis=0) for one in (turned, hole))
+    np.testing.assert_allclose(next(ways), half_turn * next(ways), atol=1e-10)

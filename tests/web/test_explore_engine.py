@@ -253,3 +253,10 @@ def test_what_is_cancelled_ends_and_leaves_nothing_behind(plain: Engine) -> None
         plain.answer({"kind": "diagram", "inputs": inputs}, lambda _message: None, check)
     assert len(calls) == 6
     assert ask(plain, "diagram", inputs=inputs)["diagram"]["branches"]
+
+
+def test_a_state_to_follow_whose_inputs_are_none_is_lost(plain: Engine) -> None:
+    """Found by fuzzing: inputs that are no mapping, of the state that was shown, are those of no diagram."""
+    for inputs in (True, 7, "x", [1, 2]):
+        found = ask(plain, "follow", load=118.0, **{"from": {"load": None, "branch": None, "inputs": inputs}})
+        assert found["kind"] == "lost"

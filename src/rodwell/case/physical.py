@@ -22,6 +22,7 @@ from rodwell.errors import InputError
 from rodwell.problem.checks import SMALLEST_CLEARANCE
 from rodwell.problem.ends import checked_ends
 from rodwell.problem.problem import Problem
+from rodwell.problem.words import where_it_bridges
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.units import System
 
@@ -74,7 +75,7 @@ def physical(
     if string_rod is not None:
         string, fluids = string_of(parsed.string or (), hole, parsed.mud, parsed.pressure, catalogue)
         check_length(string, string_rod.length)
-        rod, weight = string.whole, string.weight
+        rod, weight = string.whole, string.unit_weight
     else:
         assert parsed.rod is not None
         rod = physical_rod(parsed.rod, hole.gravity, catalogue, parsed.rod.length)
@@ -108,20 +109,21 @@ def physical(
                                     lie.height)  # fmt: skip
     wall = math.inf if hole.wall_stiffness is None else hole.wall_stiffness / scales.factor("stress")
     pieces = pairs if stepped(pairs) else ()
-    if pieces:
+    if problem.bridges:
         _check_bridging(problem, hole, lie)
     return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string, wall, pieces)
 
 
 def _check_bridging(problem: Problem, hole: Hole, lie: Lie) -> None:
-    """Refuse beside steps of the clearance what is not computed with them."""
+    """Refuse of a string that leaves the wall by itself what is not computed of it."""
+    where = where_it_bridges(problem)
     if problem.floats:
-        raise InputError("mud.outside", None, "lets the rod float, which is not computed where the clearance has steps")
+        raise InputError("mud.outside", None, f"lets the rod float, which is not computed {where}")
     if lie.height < 0.0:
-        what = "puts s = 1 below s = 0, which is not computed where the clearance has steps"
+        what = f"puts s = 1 below s = 0, which is not computed {where}"
         raise InputError("hole.angle_from_vertical", hole.angle_from_vertical, what)
     if hole.wall_stiffness is not None:
-        what = "is not computed where the clearance has steps: leave it out (a rigid wall), or give one clearance"
+        what = f"is not computed {where}: leave it out, for a rigid wall"
         raise InputError("hole.wall_stiffness", hole.wall_stiffness, what)
 
 

@@ -73,7 +73,9 @@ def _one_clearance(problem: Problem) -> tuple[tuple[float, Value], ...]:
     """The first critical load with each clearance all along, from the widest down: files and text show them."""
     from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
 
-    found = []
+    found: list[tuple[float, Value]] = []
+    if problem.rod.mixed:  # which leaves the wall with any clearance
+        return ()
     for ratio in sorted({section[3] for section in problem.sections}, reverse=True):
         same = [(*section[:3], 1.0, section[4]) for section in problem.sections]
         mode = critical_loads(problem.but(sections=same, clearance=ratio * problem.clearance), 1)[0]
@@ -104,19 +106,23 @@ def _data(path: LoadPath) -> dict[str, Any]:
 
 
 def _print(path: LoadPath) -> None:
-    from rodwell.problem.words import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text, floats_in_part  # noqa: PLC0415
 
     found = _critical(path)
     assert found.state is not None
     click.echo(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(path.problem)}:")
     click.echo(f"  mode  1  {with_error(found.force)}   out of the vertical plane")
+    does = "bridges the steps of its clearance"
+    if floats_in_part(path.problem):
+        does = "leaves the lower side of the hole where it begins to float"
     wrapped(
-        "The string bridges the steps of its clearance: it lies in the vertical plane, off the wall beside them, and "
-        "buckles sideways at this load. At it:"
+        f"The string {does}: it lies in the vertical plane, off the wall there, and buckles sideways at this "
+        "load. At it:"
     )
     print_contacts(found.state)
     for clearance, load in _one_clearance(path.problem):
         click.echo(f"  with a clearance of {plain(clearance, 6)} L everywhere: {with_error(load)}")
-    wrapped("Neither of these is a bound: free stretches beside a step have no wall that holds them.")
+    if _one_clearance(path.problem):
+        wrapped("Neither of these is a bound: free stretches beside a step have no wall that holds them.")
     for line in path.events[:-1]:
         click.echo(f"  before: {with_error(line.force)}   {line.meaning}")

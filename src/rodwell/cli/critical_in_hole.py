@@ -8,6 +8,7 @@ import click
 
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import UNIT, print_json
+from rodwell.problem.words import side_of_wall
 from rodwell.quantities.text import plain, with_error
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ def _data(loads: CriticalLoads, tensile: CriticalLoads) -> dict[str, Any]:
         "tensile_loads": [{"value": mode.force, "error": mode.error} for mode in tensile],
         "without_wall": None,
         "lying": {
-            "side": "high" if problem.on_top else "low",
+            "side": side_of_wall(problem),
             "lowest_force": _peak(low),
             "highest_force": _peak(high),
             "least_contact": [_peak(least_contact(problem, mode.force)) for mode in loads],
@@ -92,9 +93,9 @@ def _print(loads: CriticalLoads, tensile: CriticalLoads) -> None:
 
 
 def _hole(problem: Problem) -> str:
-    side = "high" if problem.on_top else "low"
     given = f"build {plain(problem.build, 6)}/L" if not problem.axis else "the axis given"
-    return f"The rod lies on the {side} side of a curved hole ({given}, α = {plain(problem.alpha, 6)}° at mid-length)."
+    lies = f"The rod {'floats, and ' if problem.floats else ''}lies on the {side_of_wall(problem)} side"
+    return f"{lies} of a curved hole ({given}, α = {plain(problem.alpha, 6)}° at mid-length)."
 
 
 def _symmetry(mode: Mode) -> str:

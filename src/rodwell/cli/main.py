@@ -16,7 +16,7 @@ os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # case files are r
 import click
 
 from rodwell._version import __version__
-from rodwell.cli.terminal import Terminated, ending_well, interrupt_behind, never_fail_to_encode
+from rodwell.cli.terminal import Terminated, ending_well, interrupt_behind, never_fail_to_encode, output_is_lost
 from rodwell.compiling.garbage import collect_seldom
 from rodwell.errors import CacheWarning, InputError, InputWarning, RodwellError
 
@@ -97,7 +97,7 @@ def main() -> None:
         click.echo(f"rodwell: error: there is not memory enough{f': {error}' if str(error) else ''}", err=True)
         sys.exit(COMPUTATION_ERROR)
     except OSError as error:
-        click.echo(f"rodwell: error: {error}", err=True)
+        click.echo(f"rodwell: error: {output_is_lost(error) or error}", err=True)
         sys.exit(COMPUTATION_ERROR)
 
 

@@ -77,7 +77,7 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
                 metavar="L:B:W,…",
                 help="String of sections from s = 0, each length:stiffness[:weight[:clearance[:torsion]]]; lengths in "
                 "L add up to 1, the others are ratios, 1 where left out: 0.6:1:1,0.4:0.3:0.5. A taper has 2 to 5 "
-                "values at even places along the section: 0.6:1:1,0.4:1/0.3:1/0.5.",
+                "values at even places along the section: 0.6:1:1,0.4:1/0.3:1/0.5. A negative weight: it floats.",
             ),
             click.option(
                 "--build",
@@ -230,8 +230,9 @@ class OutPath(click.Path):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path."""
         if not str(value).strip() and not isinstance(value, Path):
-            what = 'is empty; name a folder ("." is the current one), or leave the option out'
-            raise InputError("--out" if param is None else param.opts[0], value, what)
+            option = "--out" if param is None else param.opts[0]
+            kind = 'a folder ("." is the current one)' if option == "--out" else "a file"
+            raise InputError(option, value, f"is empty; name {kind}, or leave the option out")
         return super().convert(value, param, ctx)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+import os
 import re
 import signal
 import sys
@@ -10,6 +11,10 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
+
+import click
+
+from rodwell.errors import printable
 
 PLAIN = {
     "−": "-", "–": "-", "—": "-", "‑": "-", "±": "+/-", "×": "x", "·": "*", "°": " deg", "…": "...", "•": "*",
@@ -61,6 +66,23 @@ def _named_otherwise(name: str) -> codecs.CodecInfo | None:
         ascii_only.encode, ascii_only.decode, ascii_only.streamreader, ascii_only.streamwriter,
         ascii_only.incrementalencoder, ascii_only.incrementaldecoder, name=ASCII,
     )  # fmt: skip
+
+
+def output_is_lost(error: OSError) -> str:
+    """What to say where ``error`` is that standard output cannot be written, and where results are; "" where it is not.
+
+    Nothing more is written then: what waits in the stream would be tried again at the end of the program.
+    """
+    at = error.__traceback__
+    while at is not None and at.tb_frame.f_code is not click.echo.__code__:
+        at = at.tb_next
+    if at is None or at.tb_frame.f_locals["err"]:
+        return ""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    text = f"standard output could not be written ({error.strerror or error}): what it was to say is lost"
+    folder = sys.modules.get("rodwell.store.folder")  # where nothing is written it is not imported
+    places = [] if folder is None else [printable(str(place)) for place in folder.in_place()]
+    return f"{text}; results are in {', '.join(places)}" if places else f"{text}; no files were written"
 
 
 def has_all_characters() -> bool:

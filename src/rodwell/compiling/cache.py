@@ -16,15 +16,14 @@ A file is written beside its place and moved there, so processes that read and w
 
 from __future__ import annotations
 
-import gc
 import re
 import sys
 import uuid
 import warnings
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
-from functools import cache, wraps
+from functools import cache
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any
@@ -37,6 +36,7 @@ from numba.core.serialize import dumps
 
 from rodwell._version import __version__
 from rodwell.compiling import turns
+from rodwell.compiling.garbage import without_collecting
 from rodwell.compiling.reading import read
 from rodwell.errors import CacheWarning
 
@@ -55,8 +55,9 @@ def keep(kernel: Any) -> Any:
     if not hasattr(kernel, "enable_caching"):  # NUMBA_DISABLE_JIT: a plain function
         return kernel
     try:
-        kernel._compiler.compile = _without_collecting(kernel._compiler.compile)
+        kernel._compiler.compile = without_collecting(kernel._compiler.compile)
         kernel._cache = KernelCache(kernel.py_func)
+        _tell_elsewhere(kernel._cache.cache_path)
     except RuntimeError:  # Numba: "no locator available"
         _tell(
             "no place",
@@ -68,23 +69,14 @@ def keep(kernel: Any) -> Any:
     return kernel
 
 
-def _without_collecting(compiling: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile with Python's cyclic collector at rest: it would go over the compiler's many objects again and again.
-
-    That is a tenth of the time. What is left to collect is small, and is collected when the kernel is done.
-    """
-
-    @wraps(compiling)
-    def at_once(*arguments: Any, **options: Any) -> Any:
-        collecting = gc.isenabled()
-        gc.disable()
-        try:
-            return compiling(*arguments, **options)
-        finally:
-            if collecting:
-                gc.enable()
-
-    return at_once
+def _tell_elsewhere(kept_in: str) -> None:
+    """Warn where NUMBA_CACHE_DIR names a folder that cannot be used: Numba passes it over without a word."""
+    named = numba.config.CACHE_DIR  # type: ignore[attr-defined]
+    if named and not Path(kept_in).absolute().is_relative_to(Path(named).absolute()):
+        what = (
+            f"NUMBA_CACHE_DIR names {named}, where no folder can be written: compiled kernels are kept elsewhere, the "
+        )
+        _tell("elsewhere", f"{what}first of them in {kept_in}. Name a folder that can be written, or none")
 
 
 def on_disk(kernel: Any, arguments: tuple[Any, ...]) -> bool:

@@ -13,8 +13,9 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
 from rodwell.plots.sections import mark_steps
-from rodwell.plots.style import GREY, INK, SIZE, WARN, marked, new_axes, parameters
+from rodwell.plots.style import GREY, INK, SIZE, WARN, in_lines, marked, new_axes, parameters
 from rodwell.plots.units import axis
+from rodwell.problem.words import counted_around
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
 
@@ -144,7 +145,7 @@ def plot_around(states: Sequence[Solution], scales: Scales | None = None, ax: An
     ax.axhline(180.0 if states[0].problem.on_top else 0.0, color=GREY, lw=0.8)
     ax.set_xlim(0.0, part * fs)
     ax.set_xlabel(f"distance along the rod from s = 0{straight_beyond(part)}  [{us}]")
-    ax.set_ylabel("angle around the hole\nfrom the low side  [°]")
+    ax.set_ylabel(f"angle around the hole\nfrom the {counted_around(states[0].problem)[0]} side  [°]")
     if legend:
         _legend(ax, said)
     return ax
@@ -162,7 +163,7 @@ def plot_wall_loads(branch: Branch, scales: Scales | None = None, states: Sequen
     below = plot_torque if branch.problem.hole is None else plot_around
     below(states, scales, ax=lower, legend=False)
     upper.set_xlabel("")
-    upper.set_title(parameters(branch.problem, scales), loc="left", fontsize=8.5)
+    upper.set_title(in_lines(parameters(branch.problem, scales), 100), loc="left", fontsize=8.5)
     return upper
 
 

@@ -71,7 +71,7 @@ class _View:
         self.rod = self.hole * rod / hole
         self.side = 1.0 if case.problem.floats else -1.0
         self.middle = self.side * (self.hole - self.rod)
-        self.axis = case.problem.hole
+        self.axis = case.problem.given_hole
 
     def __call__(self, along: float, across: float) -> FloatArray:
         at, high = self._place(along)

@@ -6,10 +6,12 @@ import math
 import warnings
 from typing import Any
 
+import numpy as np
+
 from rodwell.errors import InputError, InputWarning, checked_number
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends, refuse_off_wall
 from rodwell.problem.hole import CURVATURE_ALLOWED, MOST_CURVATURE, Hole, checked_axis
-from rodwell.problem.sections import checked_sections
+from rodwell.problem.sections import Section, checked_sections
 
 LARGEST_WEIGHT = 1e9
 LARGEST_TWIST = 1e4
@@ -93,6 +95,7 @@ def _take_numbers(problem: Any) -> None:
 
 def _take_clearance(problem: Any) -> None:
     """Take a clearance ratio that all sections share into the clearance, and check those of the others."""
+    _refuse_all_floating(problem.sections)
     ratios = [section[3] for section in problem.sections]
     if min(ratios) == max(ratios) != 1.0:
         object.__setattr__(problem, "clearance", problem.clearance * ratios[0])
@@ -104,6 +107,14 @@ def _take_clearance(problem: Any) -> None:
             what = f"makes its clearance {ratio * problem.clearance:g} L: must be above 0 and below 1, a part of the "
             what += f"rod's length (at least {SMALLEST_CLEARANCE:g})"
             raise InputError(f"section {number}, clearance", ratio, what)
+
+
+def _refuse_all_floating(sections: tuple[Section, ...]) -> None:
+    """Raise where every section floats, or hangs in balance: that is said of the whole rod."""
+    weights = [value for section in sections for value in np.atleast_1d(section[2])]
+    if min(weights) < 0.0 >= max(weights):
+        what = "are all negative: for a rod that floats as a whole give floats=True and positive ratios"
+        raise InputError("sections", f"weight ratios {' + '.join(f'{one:g}' for one in weights[:6])}", what)
 
 
 def _check_ends(problem: Any) -> None:
@@ -138,16 +149,15 @@ def _check_hole(problem: Any) -> None:
     hole.check(problem.clearance)
     if hole.straight:
         return
-    if problem.floats:
-        raise InputError(
-            "floats", True, "must be False in a curved hole: rods that float are computed in straight ones"
-        )
     refuse_off_wall(problem.ends, "the states of a rod in a curved hole")
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "must be 0 in a curved hole: coils are computed in straight ones")
     if problem.tapered:
         why = "must have one stiffness, weight and torsion in each in a curved hole: sections that taper are computed "
         raise InputError("sections", "tapered", why + "in straight holes; cut the taper into steps")
+    if problem.bridges and not problem.rod.clearance_steps.size:
+        why = "must all sink or all float in a curved hole: strings with sections of both kinds are computed in "
+        raise InputError("sections", f"{len(problem.sections)} of them", f"{why}straight holes")
     if problem.bridges:
         why = "must have one clearance in a curved hole: strings that bridge its steps are computed in straight holes; "
         raise InputError("sections", f"{len(problem.sections)} of them", why + "give one clearance for all sections")

@@ -155,6 +155,19 @@ class Hole:
         """Points x, y, z of the axis in L, (n, 3), at arclengths S (n,); an arc begins at the origin."""
         return self.at(places)[2]
 
+    @cached_property
+    def upside_down(self) -> Hole:
+        """The same hole turned by half a turn about a level axis: a build becomes a drop, the high side the low one.
+
+        S stays where it is, a walk to the right becomes one to the left; of rows x, y, z → x, −y, −z.
+        """
+        if not self.axis:
+            return Hole(180.0 - self.alpha, -self.build, -self.walk)
+        half_turn = [1.0, -1.0, -1.0]
+        signs = half_turn if len(self.axis[0]) != COLUMNS else [1.0, *half_turn, *half_turn, *half_turn]
+        rows = (np.array(self.axis) * signs).tolist()
+        return Hole(180.0 - self.alpha, axis=tuple(map(tuple, rows)))
+
     @property
     def error(self) -> float:
         """How far tabulated frames and points may be from the curve through the points, in 1 and L."""

@@ -10,19 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.errors import InputError
 from rodwell.problem.checks import check
 from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS
 from rodwell.problem.hole import Hole
 from rodwell.problem.lying import heights_of_lying_rod
 from rodwell.problem.points import Rows
 from rodwell.problem.profile import Ratio
+from rodwell.problem.refusals import Refusals
 from rodwell.problem.rod import Rod
 from rodwell.problem.sections import COLUMNS, PLAIN, Section, seen_from_s_1
 
 
 @dataclass(frozen=True)
-class Problem:
+class Problem(Refusals):
     """A heavy rod on a cylinder of any inclination.
 
     Units: bending stiffness B = 1 and rod length L = 1. Forces are in B/L², moments in B/L, lengths in L.
@@ -64,8 +64,9 @@ class Problem:
         uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
         ``poisson`` give C of torsion ratio 1. A clearance ratio that all share goes into ``clearance``; where it has
         steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
-        computed of rods that stay on the wall is refused. In a curved hole each section has one stiffness, weight and
-        torsion, and all have one clearance. None given: a uniform rod.
+        computed of rods that stay on the wall is refused. So does it where it begins to float: a section of negative
+        weight ratio, beside others of positive ones, lies on the upper side; the ends stay at the bottom. In a curved
+        hole each section has one stiffness, weight and torsion, and all have one clearance. None given: a uniform rod.
     build, walk
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
         turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the
@@ -112,48 +113,28 @@ class Problem:
         check(self)
 
     @cached_property
-    def hole(self) -> Hole | None:
-        """The curved hole; None: it is straight."""
+    def given_hole(self) -> Hole | None:
+        """The curved hole as it is in space; None: it is straight."""
         if self.build == self.walk == 0.0 and not self.axis:
             return None
         hole = Hole.through(self.axis) if self.axis else Hole.arc(self.alpha, self.build, self.walk)
         return None if hole.straight else hole
 
-    def refuse_curved(self, what: str) -> None:
-        """Raise in a curved hole: ``what`` is computed in straight ones."""
-        if self.hole is not None:
-            name = "axis" if self.axis else "build" if self.build != 0.0 else "walk"
-            value = f"{len(self.axis)} points" if self.axis else getattr(self, name)
-            raise InputError(name, value, f"must be left out: {what} in straight holes only")
+    @cached_property
+    def hole(self) -> Hole | None:
+        """The curved hole with the weight downwards: that of a rod that floats upside down. None: it is straight."""
+        given = self.given_hole
+        return given.upside_down if given is not None and self.floats else given
 
     @cached_property
     def bridges(self) -> bool:
-        """Whether the clearance has steps, over which a string leaves the wall."""
-        return bool(self.sections) and self.rod.clearance_steps.size > 0
-
-    def refuse_bridges(self, what: str) -> None:
-        """Raise where the clearance has steps: ``what`` are computed of rods that stay on the wall."""
-        if self.bridges:
-            ratios = " + ".join(f"{section[3]:g}" for section in self.sections[:6])
-            raise InputError(
-                "sections", f"clearance ratios {ratios}" + (" + …" if len(self.sections) > 6 else ""),
-                f"must have one clearance: {what} are those of a rod that stays on the wall, and a string bridges "
-                "steps of the clearance, off the wall. How it lies there, and when it buckles: `rodwell run` "
-                "of a case; `rodwell path`, `rodwell critical`, rodwell.load_path",
-            )  # fmt: skip
+        """Whether a string leaves the wall: over steps of the clearance, or between sections that sink and float."""
+        return bool(self.sections) and (self.rod.clearance_steps.size > 0 or self.rod.mixed)
 
     @property
     def tapered(self) -> bool:
         """Whether stiffness, weight or torsion vary along a section."""
         return bool(self.sections) and self.rod.tapered
-
-    def refuse_tapers(self, what: str) -> None:
-        """Raise where a section tapers: ``what`` are computed of sections of one stiffness and weight each."""
-        if self.tapered:
-            raise InputError(
-                "sections", "tapered", f"must have one stiffness, weight and torsion in each: {what} are not "
-                "computed of sections that taper",
-            )  # fmt: skip
 
     @property
     def holds_angle(self) -> bool:
@@ -235,6 +216,8 @@ class Problem:
     @property
     def heaviest(self) -> float:
         """Max wₐ, 0: by how much compression may be larger somewhere along the rod than at s = 1."""
+        if self.sections and self.rod.mixed:
+            return float(np.max(-self.axial_weight * self.rod.lever(self.rod.breaks)))
         return max(self.hung_weight, 0.0)
 
     @property

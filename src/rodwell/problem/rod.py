@@ -66,6 +66,28 @@ class Rod:
         return {name: np.transpose(pairs).astype(np.float64) for name, pairs in each.items()}
 
     @cached_property
+    def sizes_of_weight(self) -> FloatArray:
+        """The largest size of w(s)/w in each section, (n,), whichever way it acts."""
+        return np.asarray(np.max(np.abs(self.ranges["weight"]), axis=0))
+
+    @cached_property
+    def _signs_of_weight(self) -> FloatArray:
+        """Of each section 1, −1 where it floats, or 0, (n,)."""
+        least, most = self.ranges["weight"]
+        return np.where(most > 0.0, 1.0, np.where(least < 0.0, -1.0, 0.0))
+
+    @cached_property
+    def mixed(self) -> bool:
+        """Whether weight acts downwards in some sections and upwards in others, which float."""
+        return bool(np.min(self._signs_of_weight) < 0.0 < np.max(self._signs_of_weight))
+
+    @cached_property
+    def sign_changes(self) -> FloatArray:
+        """Where the weight changes its sign, or begins or ends to be none, (k,), in L."""
+        signs = self._signs_of_weight
+        return np.asarray(self.breaks[1:-1][signs[1:] != signs[:-1]])
+
+    @cached_property
     def stiffness_reach(self) -> FloatArray:
         """How far each section is from where its polynomial of the stiffness vanishes in the complex plane, (n,), in L.
 

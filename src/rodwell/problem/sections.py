@@ -82,8 +82,9 @@ def _checked(section: object, number: int) -> Section:
 
 def _checked_ratio(field: str, name: str, value: object) -> Ratio:
     """A ratio: a number, or its values along the section; values that are all alike are a number."""
-    low = 0.0 if name == "weight" else SMALLEST_RATIO
+    low = -LARGEST_RATIO if name == "weight" else SMALLEST_RATIO
     allowed = f"from {low:g} to {LARGEST_RATIO:g}, a ratio to the {name} of the problem"
+    allowed += ", negative where it floats" if name == "weight" else ""
     if name == "clearance" or isinstance(value, str) or not isinstance(value, Iterable):
         return float(checked_number(field, value, low, LARGEST_RATIO, allowed))
     given = list(value)
@@ -94,6 +95,11 @@ def _checked_ratio(field: str, name: str, value: object) -> Ratio:
     if min(ratio) == max(ratio):
         return ratio[0]
     least, where, most = extremes(ratio)
+    if name == "weight" and min(ratio) >= 0.0:
+        low = 0.0
+    if name == "weight" and least < 0.0 < most and (min(ratio) < 0.0 < max(ratio) or max(ratio) <= 0.0):
+        what = "must not change its sign within a section: part the section where it begins to float"
+        raise InputError(field, " / ".join(f"{one:g}" for one in ratio), what)
     if least < low or most > LARGEST_RATIO:
         found = f"{least:.4g} at {where:.4g}" if least < low else f"{most:.4g} at most"
         what = f"the polynomial through them is {found} of the section's length: part the section, or give fewer values"

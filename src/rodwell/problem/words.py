@@ -17,6 +17,26 @@ def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
     return f"{ends}, rod floats: pressed to the upper side" if problem.floats else ends
 
 
+def where_it_bridges(problem: Problem) -> str:
+    """Where a string leaves the wall by itself: at steps of the clearance, or where it begins to float."""
+    return "where some sections sink and others float" if floats_in_part(problem) else "where the clearance has steps"
+
+
+def floats_in_part(problem: Problem) -> bool:
+    """Whether a string leaves the wall because some of its sections float, and for no step of the clearance."""
+    return problem.bridges and not problem.rod.clearance_steps.size
+
+
+def side_of_wall(problem: Problem) -> str:
+    """The side of the hole that the rod lies on before it buckles: "low" or "high"."""
+    return "high" if problem.on_top != problem.floats else "low"
+
+
+def counted_around(problem: Problem) -> tuple[str, str]:
+    """From which side of the hole ξ₂ counts, and which way, looking towards s = 0: "low", "left", or the others."""
+    return ("high", "right") if problem.floats else ("low", "left")
+
+
 def hole_text(problem: Problem) -> str:
     """Whether the hole is straight or curved, in words."""
     return "straight hole" if problem.hole is None else "curved hole"

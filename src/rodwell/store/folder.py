@@ -55,8 +55,17 @@ def whole_folder(out: Path, option: str = "--out") -> Iterator[Path]:
                 _check_free(new, out, option)
                 _open_to_others(new)
                 put_in_place(new, target)
+                _in_place.append(out)
     except OSError as error:
         raise _unwritable(out, error, option) from None
+
+
+_in_place: list[Path] = []
+
+
+def in_place() -> tuple[Path, ...]:
+    """Folders that this process has put results in, each once, from the first on: told where nothing else can be."""
+    return tuple(dict.fromkeys(_in_place))
 
 
 @contextmanager

@@ -81,7 +81,8 @@ class RodSection:
         if p.hole is not None:
             start, end = ends_of_lying_rod(p)
             top = height_of_rod(p, np.array([end]), np.array([math.pi if p.on_top else 0.0]))
-            return self.scales.length * (top - height_of_rod(p, start + f["z"], f["xi2"]))
+            above = top - height_of_rod(p, start + f["z"], f["xi2"])
+            return self.scales.length * (-above if p.floats else above)  # of a rod that floats upside down
         alpha = math.radians(p.alpha)
         up = (-1.0 if p.floats else 1.0) * p.clearance * math.sin(alpha) * (1.0 - np.cos(f["xi2"]))
         axial = 0.0 if p.alpha == 90.0 else math.cos(alpha)

@@ -210,12 +210,18 @@ def as_given(request: Request) -> bool:
 
 def _key(request: Request) -> str:
     """Of what was computed for the inputs of a request."""
-    return json.dumps([dict(request.get("inputs") or {}), request.get("until")], sort_keys=True)
+    return json.dumps([_inputs(request), request.get("until")], sort_keys=True)
+
+
+def _inputs(request: Request) -> object:
+    """The inputs of a request; whatever else stands there is no key of anything that was kept."""
+    inputs = request.get("inputs") or {}
+    return dict(inputs) if isinstance(inputs, Mapping) else inputs
 
 
 def _followed_key(request: Request, branch: object) -> str:
     """Of a state that was followed."""
-    return json.dumps([dict(request.get("inputs") or {}), request.get("load"), branch], sort_keys=True)
+    return json.dumps([_inputs(request), request.get("load"), branch], sort_keys=True)
 
 
 def _seldom(tell: Callable[[str, float], None], check: Callable[[], None]) -> Callable[[str, float], None]:

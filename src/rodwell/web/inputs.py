@@ -144,7 +144,7 @@ def _of_string(string: Sequence[Mapping[str, Any]]) -> list[Control]:
 
 
 def _may_bend(data: Mapping[str, Any]) -> bool:
-    """Whether the hole, straight as given, may be bent: a uniform rod that does not float lies in it."""
+    """Whether the hole, straight as given, may be bent: a uniform rod lies in it."""
     if "dimensionless" in data:
         return True
     hole = data.get("hole", {})

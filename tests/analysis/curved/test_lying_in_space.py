@@ -1,8 +1,6 @@
 """The rod along a hole that leaves the vertical plane: limits, symmetries, and an elastic curve in space beside it.
 
-The second method knows no formula of the rod on the wall: the centre line is put into space on the wall of the arc, its
-curvature and height are differentiated and integrated by Chebyshev polynomials, and the energy is made least over the
-coefficients of a polynomial by Newton's method with differences of nothing but itself.
+The second method knows no formula of the rod on the wall: :mod:`in_space`.
 """
 
 from __future__ import annotations
@@ -11,6 +9,7 @@ import math
 
 import numpy as np
 import pytest
+from in_space import CLAMPED, CLEARANCE, energy_in_space, least_energy
 from numpy.polynomial import chebyshev
 
 from rodwell import InputError, Problem, critical_loads, diagram, follow
@@ -19,9 +18,7 @@ from rodwell.analysis.branch.symmetry import reflections
 from rodwell.analysis.discrete.measures import AS_FIELD, Measured, measure
 from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
 from rodwell.analysis.state.fields import fields_at
-from rodwell.quantities.arrays import FloatArray
 
-CLEARANCE = 0.01
 TILTED = Problem(15.0, 80.0, build=0.2, walk=0.3)
 
 
@@ -44,57 +41,6 @@ def test_it_lies_on_the_wall_and_stable_down_to_where_it_leaves_it(tilted: Lying
     assert tilted.last.number("largest_pressure").value == pytest.approx(0.0, abs=1e-6 * tilted.last.wall.contact.value)
     with pytest.raises(InputError, match="there the rod lies on the wall, stable"):
         tilted.at(tilted.lowest.value - 1.0)
-
-
-DEGREE = 64
-NODES = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
-FIT = np.linalg.inv(chebyshev.chebvander(NODES, DEGREE))
-"""From values at the nodes to coefficients of Chebyshev polynomials."""
-
-CLAMPED = chebyshev.poly2cheb([0.0625, 0.0, -0.125, 0.0, 0.0625])
-"""s²(1 − s)²."""
-
-
-def energy_in_space(coefficients: FloatArray, problem: Problem, force: float) -> float:
-    """Bending, height and work of a rod with θ = s²(1 − s)² Σ aₖ Tₖ on the wall of a constant arc."""
-    shape = CLEARANCE * chebyshev.chebmul(CLAMPED, coefficients)
-    slope = 2.0 * chebyshev.chebval(NODES, chebyshev.chebder(shape))
-    theta, kappa = chebyshev.chebval(NODES, shape) / CLEARANCE, np.array([problem.build, -problem.walk])
-    inwards = kappa[0] * np.cos(theta) - kappa[1] * np.sin(theta)
-    ahead = chebyshev.chebint(FIT @ (np.sqrt(1.0 - slope**2) / (1.0 + CLEARANCE * inwards)), lbnd=-1.0, scl=0.5)
-    start = 0.5 - 0.5 / (1.0 + CLEARANCE * problem.build)
-    place = start + chebyshev.chebval(NODES, ahead) - 0.5
-    size, alpha = float(np.hypot(*kappa)), math.radians(problem.alpha)
-    bend = np.array([kappa[0] / size, kappa[1] / size, 0.0])  # along N1, N2, T of the middle
-    sine, cosine = np.sin(size * place)[:, None], np.cos(size * place)[:, None]
-    axial = np.array([0.0, 0.0, 1.0])
-    axis = (sine * axial + (1.0 - cosine) * bend) / size
-    tilt = (cosine - 1.0) * bend - sine * axial  # what turning T by κS about T × k does to k/κ
-    n1, n2 = (np.eye(3)[i] + bend[i] * tilt for i in (0, 1))
-    centre = axis - CLEARANCE * (np.cos(theta)[:, None] * n1 - np.sin(theta)[:, None] * n2)
-    second = 4.0 * chebyshev.chebval(NODES, chebyshev.chebder(FIT @ centre, 2))
-    height = np.sin(alpha) * centre[:, 0] + np.cos(alpha) * centre[:, 2]
-    density = chebyshev.chebint(FIT @ (0.5 * np.sum(second**2, axis=0) + problem.weight * height), scl=0.5)
-    stored = float(np.diff(chebyshev.chebval(np.array([-1.0, 1.0]), density))[0])
-    return stored - force * (1.0 + CLEARANCE * problem.build) * float(chebyshev.chebval(1.0, ahead))
-
-
-def least_energy(problem: Problem, force: float, count: int) -> FloatArray:
-    """Coefficients (count,) of least energy, by Newton's method with differences of the energy alone."""
-    step = 1e-2 * np.eye(count)
-    at = np.zeros(count)
-    for _ in range(6):
-        here = energy_in_space(at, problem, force)
-        after, before = (
-            np.array([energy_in_space(at + sign * one, problem, force) for one in step]) for sign in (1.0, -1.0)
-        )
-        hessian = np.diag(after - 2.0 * here + before)
-        for i in range(count):
-            for j in range(i):
-                both = energy_in_space(at + step[i] + step[j], problem, force)
-                hessian[i, j] = hessian[j, i] = both - after[i] - after[j] + here
-        at = at - 1e-2 * np.linalg.solve(hessian, 0.5 * (after - before))
-    return at
 
 
 def test_the_angle_is_that_of_least_energy_in_space(tilted: LyingRod) -> None:

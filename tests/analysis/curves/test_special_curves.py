@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+from itertools import combinations
+
 import pytest
 
 from rodwell import Branch, InputError, Problem, Solution, follow, lift_off_curve, secondary_curve, special_curve
+from rodwell.analysis.curves.curve import Curve, CurvePoint
+from rodwell.analysis.curves.points import CurveStart, PlanePoint
+from rodwell.analysis.curves.secant import CurveLostError
+from rodwell.analysis.curves.zeros import Folding
 
 SHORTER = 5e-4
 
@@ -112,3 +119,46 @@ def test_the_side_of_a_fold_without_states_is_told() -> None:
     ) as caught:
         follow(problem, start=fold, until=-360.0)
     assert caught.value.field == "until"
+
+
+FOLDS_BY_THE_CUSP = Problem(15.0, 38.6)
+"""Two folds, 0.17 degrees from where they meet."""
+
+
+def by_the_cusp(rtol: float) -> Curve:
+    """The curve of the folds through the cusp, to a tolerance."""
+    fold = follow(FOLDS_BY_THE_CUSP, until=-115.0, rtol=rtol).labelled("fold 1")
+    return special_curve(fold, "alpha", 38.0)
+
+
+def error_at(point: CurvePoint, other: Curve) -> tuple[float, float]:
+    """By how much a point misses the fold at its inclination, on the meshes of another curve, and what is allowed."""
+    found = []
+    for near in sorted(other.points, key=lambda q: 1e4 * (q.x - point.x) ** 2 + (q.value - point.value) ** 2)[:3]:
+        assert near.solution is not None
+        start = CurveStart(near.x, near.solution, along=True)
+        with suppress(CurveLostError):
+            place = PlanePoint(point.x, near.value)
+            found.append(Folding(FOLDS_BY_THE_CUSP, "alpha").solve(start.meshes, start.guess, place))
+    if not found:  # on the other side of the other curve's cusp
+        (cusp,) = other.marks
+        return abs(point.x - cusp.x), point.x_error + cusp.x_error
+    exact = min(found, key=lambda one: abs(one.spot.value - point.value))
+    slope = (point.value + 104.849639) / (point.x - 38.4303074) if abs(point.x - 38.4303074) > 1e-3 else 4.29
+    return abs(exact.spot.value - point.value), point.error + exact.error + abs(slope) * point.x_error
+
+
+def test_errors_hold_beside_a_cusp_and_where_round_off_is_left() -> None:
+    """Against the same folds on meshes for another tolerance: the load at a place, and the place of the cusp itself."""
+    curves = {rtol: by_the_cusp(rtol) for rtol in (1e-5, 1e-8, 1e-10)}
+    for rtol, other in ((1e-5, 1e-8), (1e-10, 1e-8)):
+        for point in curves[rtol].points[::3]:
+            missed, allowed = error_at(point, curves[other])
+            assert missed <= allowed + 1e-12, (rtol, point.x, missed, allowed)
+    cusps = [mark for curve in curves.values() for mark in curve.marks]
+    assert [cusp.kind for cusp in cusps] == ["cusp"] * 3
+    for one, two in combinations(cusps, 2):
+        assert abs(one.x - two.x) <= one.x_error + two.x_error
+        assert abs(one.value - two.value) <= one.error + two.error
+    assert curves[1e-8].converged
+    assert not curves[1e-10].converged  # said so, since round-off leaves less

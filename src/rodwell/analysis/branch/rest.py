@@ -16,6 +16,7 @@ from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.scale import EULER
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem
+from rodwell.problem.words import side_of_wall
 
 REACH = 2.0
 """How far states are followed by themselves on either side, in sums of what straight, bent and heavy rods bear."""
@@ -65,7 +66,7 @@ def _after_touch_down(problem: Problem, start: Solution, how: Following) -> Solu
         for state in (branch[i] for i in range(down.after + 1, len(branch))):
             if _on_wall(state):
                 return state
-    side = "high" if problem.on_top else "low"
+    side = side_of_wall(problem)
     where = start.highest_pressure[2]
     raise InputError(
         "axis" if problem.axis else "walk",

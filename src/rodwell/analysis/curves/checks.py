@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from rodwell.analysis.curves.points import NearbyStates, SolvedPoint
@@ -65,3 +67,37 @@ def straightens(a: SolvedPoint, b: SolvedPoint) -> bool:
     before, after = (np.max(np.abs(point.guess.fine)) / point.solution.problem.clearance for point in (a, b))
     turned = a.guess.fine.size == b.guess.fine.size and a.guess.fine @ b.guess.fine < 0.0
     return bool(after < min(before, STRAIGHT) or turned)
+
+
+def error_at_turn(
+    around: list[tuple[float, SolvedPoint]], close: list[tuple[float, SolvedPoint]], x_error: float
+) -> float:
+    """How far the load of the middle one of three ``close`` points may be from that where x is extremal.
+
+    x is as extremal as it is known to be within √(2 x_error/|x″|) of that place, where the load may change: by the
+    slope that it has there, and by its curvature, which ``around`` tells, three points farther apart. Where the load
+    turns back too, at a cusp, it has no slope.
+    """
+    (x_bend, _), (bend, _) = (_parabola([(t, of(point)) for t, point in around]) for of in (_x_of, _load_of))
+    before, here, after = (_load_of(point) for _, point in around)
+    cusp = (before - here) * (after - here) > 0.0
+    slope = 0.0 if cusp else _parabola([(t, _load_of(point)) for t, point in close])[1]
+    far = max(abs(around[0][0] - around[1][0]), abs(around[2][0] - around[1][0]))
+    within = min(math.sqrt(2.0 * x_error / abs(x_bend)), far) if x_bend != 0.0 else far
+    return abs(slope) * within + 0.5 * abs(bend) * within**2
+
+
+def _x_of(point: SolvedPoint) -> float:
+    return point.spot.x
+
+
+def _load_of(point: SolvedPoint) -> float:
+    return point.spot.value
+
+
+def _parabola(three: list[tuple[float, float]]) -> tuple[float, float]:
+    """Second derivative, and slope at the middle, of the parabola through three points."""
+    (a, fa), (b, fb), (c, fc) = three
+    left, right = (fb - fa) / (b - a), (fc - fb) / (c - b)
+    bend = 2.0 * (right - left) / (c - a)
+    return bend, left + 0.5 * bend * (b - a)

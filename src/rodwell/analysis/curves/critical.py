@@ -279,7 +279,7 @@ def _half_in_arc(problem: Problem, parity: int) -> Problem:
     It is inclined by what the hole turns over a quarter of the rod.
     """
     middle = "guided" if parity > 0 else "pinned"
-    reach = -problem.clearance if problem.on_top else problem.clearance
+    reach = -problem.clearance if problem.on_top != problem.floats else problem.clearance
     turn = math.degrees(0.25 * problem.build / (1.0 + reach * problem.build))
     return problem.but(
         weight=problem.weight / 8.0, clearance=2.0 * problem.clearance, build=0.5 * problem.build,

@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.curves.contact import ContactMaximum
 from rodwell.analysis.curves.curve import CurvePoint
 from rodwell.analysis.curves.secant import FARTHEST, MOST_SECANTS, PROBE, SETTLED, CurveLostError, zero_at
-from rodwell.analysis.discrete.measures import pressure_maxima
 from rodwell.analysis.straight.scale import EULER
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
 from rodwell.numerics.equilibria.family import Family
@@ -23,9 +23,6 @@ from rodwell.problem.varying import Parameter
 from rodwell.quantities.arrays import FloatArray
 
 MOST_REFINEMENTS = 3
-
-NEAR = 0.03
-"""Maxima of the contact pressure closer than this, or than this part of a half wave if they are short, are one."""
 
 
 class NearbyStates(NamedTuple):
@@ -109,49 +106,53 @@ class SolvedPoint:
         )
 
 
-class ContactMaximum:
-    """The place that lifts off, followed along a curve: each maximum of the contact pressure is a function of its own.
+STALLED = 0.7
+"""Finer meshes that reduce the gap between the places on both by less do not help any more: round-off is left."""
 
-    ``place`` is None as long as the highest one is meant. Of a symmetric state it lies in the first half.
+NO_GAIN = 2.0
+"""Error over the gap between two meshes where no gain is seen: round-off grows with the mesh, and the finer one may be
+off by all of the gap, and by what the coarser one is off."""
+
+
+@dataclass(frozen=True)
+class _Resolved:
+    """A point solved for on two meshes, at the values ``places`` of the parameter.
+
+    ``without`` is how far, in load and parameter, finer meshes put it that brought it no nearer: no gain is claimed.
     """
 
-    def __init__(self) -> None:
-        self.place: float | None = None
-        self.near = NEAR
+    meshes: TwoMeshes
+    point: MeshedState
+    places: tuple[float, float]
+    without: tuple[float, float] | None = None
 
-    def at(self, family: Family, state: State) -> float:
-        """Contact pressure at the maximum that is followed, with the sign that makes contact negative."""
-        places, values, _ = _maxima(family, state)
-        if self.place is None:
-            return float(values.max())
-        here = np.abs(places - self.place) < self.near
-        if not here.any():
-            raise CurveLostError("the place that lifts off is lost")
-        return float(values[here].max())
+    @property
+    def spot(self) -> PlanePoint:
+        """Where it lies, by the finer of its meshes."""
+        return PlanePoint(self.places[1], float(self.point.fine.lam))
 
-    def moved(self, solution: Solution) -> float:
-        """Where the maximum that is followed lies at a state."""
-        places, values, _ = _maxima(*solution.levels[1])
-        if self.place is None:
-            return float(places[np.argmax(values)])
-        here = np.abs(places - self.place) < self.near
-        return float(places[here][np.argmax(values[here])])
+    @property
+    def error(self) -> float:
+        """How far the curve may pass from it in the load."""
+        gap = float(self.point.lam_gap)
+        known = gap if self.without is None else NO_GAIN * max(CLAIMED_GAIN * gap, self.without[0])
+        return known + 2e-13 * abs(self.spot.value)
 
-    def rival(self, solution: Solution, mesh: int = 1) -> tuple[float, float | None]:
-        """Highest contact pressure at any other maximum, and where; the lowest pressure where there is none."""
-        places, values, lowest = _maxima(*solution.levels[mesh])
-        other = np.abs(places - self.moved(solution)) >= self.near
-        if not other.any():
-            return lowest, None
-        best = int(np.argmax(np.where(other, values, -np.inf)))
-        return float(values[best]), float(places[best])
+    @property
+    def x_error(self) -> float:
+        """The same in the parameter."""
+        apart = abs(self.places[1] - self.places[0])
+        return apart / CLAIMED_GAIN if self.without is None else NO_GAIN * max(apart, self.without[1])
 
+    @property
+    def gap(self) -> float:
+        """The larger of both as parts of load and parameter."""
+        return max(self.error / (abs(self.spot.value) + EULER), self.x_error / (abs(self.spot.x) or 1.0))
 
-def _maxima(family: Family, state: State) -> tuple[FloatArray, FloatArray, float]:
-    """Maxima of the contact pressure: places, of a symmetric state folded onto the first half, values, lowest value."""
-    places, values, lowest = pressure_maxima(family, state)
-    symmetric = family.parity != 0 or state.symmetry != 0
-    return (np.minimum(places, 1.0 - places) if symmetric else places), values, lowest
+    def without_gain(self, finer: _Resolved) -> _Resolved:
+        """The same point, known to be no nearer to the curve than to where finer meshes put it."""
+        apart = abs(finer.spot.value - self.spot.value), abs(finer.spot.x - self.spot.x)
+        return replace(self, without=apart)
 
 
 class Zero(ABC):
@@ -193,6 +194,7 @@ class Zero(ABC):
         With ``travel``: the zero on the hyperplane through the guess normal to that direction, in the space of states
         and load. The parameter is then found too. So the curve can be followed where it turns back in the parameter.
         """
+        found: _Resolved | None = None
         for refinement in range(MOST_REFINEMENTS + 1):
             line = self.meshes(meshes, spot)
             if travel is None:
@@ -206,6 +208,10 @@ class Zero(ABC):
                 second, fine, _ = self.zero_across(meshes, same, PlanePoint(first, coarse.lam), travel, 1, slope)
                 places, line = (first, second), self.meshes(meshes, PlanePoint(second, fine.lam))
             point = line.point(coarse, fine)
+            before, found = found, _Resolved(line, point, places)
+            if before is not None and found.gap >= STALLED * before.gap:
+                found = before.without_gain(found)  # round-off: finer meshes bring the place no nearer
+                break
             finer = None if point.accurate or refinement == MOST_REFINEMENTS else line.refined(point)
             if finer is None:
                 break
@@ -216,10 +222,12 @@ class Zero(ABC):
             spot = PlanePoint(places[1], float(fine.lam))
             if travel is not None:
                 travel = replace(travel, coarse=up(travel.coarse), fine=up_fine(travel.fine))
-        there, error = PlanePoint(places[1], float(fine.lam)), float(point.lam_gap + 2e-13 * abs(fine.lam))
-        solution = self.solution(line, point, there)
+        assert found is not None
+        if not found.point.accurate and found.without is None:
+            found = found.without_gain(found)  # finer meshes there are none, or they help no more
+        solution = self.solution(found.meshes, found.point, found.spot)
         touching = solution.highest_pressure[2] if self.touch else ()
-        return SolvedPoint(there, error, abs(places[1] - places[0]) / CLAIMED_GAIN, solution, touching)
+        return SolvedPoint(found.spot, found.error, found.x_error, solution, touching)
 
     def zero_across(
         self,

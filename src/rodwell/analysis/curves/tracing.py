@@ -15,10 +15,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.curves.checks import BECOMES_STRAIGHT, bracket, carried, leapt, on_meshes, straightens, vertex
+from rodwell.analysis.curves.checks import (
+    BECOMES_STRAIGHT,
+    bracket,
+    carried,
+    error_at_turn,
+    leapt,
+    on_meshes,
+    straightens,
+    vertex,
+)
+from rodwell.analysis.curves.contact import NEAR
 from rodwell.analysis.curves.curve import SWITCH, TURN, CurvePoint, Mark, Progress
 from rodwell.analysis.curves.points import (
-    NEAR,
     CurveStart,
     CurveTangent,
     NearbyStates,
@@ -263,7 +272,7 @@ class _Tracer:
             return float(row @ carried(point.guess.fine, point, c, 1)) + row_lam * point.spot.value
 
         start, whole = along(b), along(c) - along(b)
-        three = [((along(point) - start) / whole, point) for point in (a, b, c)]
+        three = around = [((along(point) - start) / whole, point) for point in (a, b, c)]
         change = np.inf
         for _ in range(MOST_VERTICES):
             share = vertex([(t, point.spot.x) for t, point in three])
@@ -279,8 +288,8 @@ class _Tracer:
         if turn is not b:
             self.solved.insert(len(self.solved) - (t < 0.0), turn)
         x_error = turn.x_error + (change if np.isfinite(change) else abs(way.travel.x))
-        note = "the curve turns back"
-        self.marks.append(Mark(TURN, turn.spot.x, float(x_error), turn.spot.value, turn.error, note))
+        error, note = turn.error + error_at_turn(around, three, x_error), "the curve turns back"
+        self.marks.append(Mark(TURN, turn.spot.x, float(x_error), turn.spot.value, float(error), note))
 
 
 MOST_POINTS = 2000

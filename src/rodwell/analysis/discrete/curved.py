@@ -171,7 +171,10 @@ def ends_of_lying_rod(problem: Problem) -> tuple[float, float]:
 
 
 def height_of_rod(problem: Problem, places: FloatArray, angle: FloatArray) -> FloatArray:
-    """Height (m,) in L of the rod's centre beside places S (m,) of the axis, at angles ξ₂ (m,) from the low side."""
+    """Height (m,) in L of the rod's centre beside places S (m,) of the axis, at angles ξ₂ (m,) from the low side.
+
+    Upside down of a rod that floats, as its hole is.
+    """
     hole = _hole(problem)
     _, frames, points = hole.at(places)
     up = frames[:, :, 2]
@@ -269,5 +272,7 @@ def _missed(breaks: FloatArray, problem: Problem) -> float:
 
 
 def _hole(problem: Problem) -> Hole:
-    """The hole of a problem; a straight one as an arc without curvature."""
-    return Hole.arc(problem.alpha) if problem.hole is None else problem.hole
+    """The hole of a problem with the weight downwards; a straight one as an arc without curvature."""
+    if problem.hole is not None:
+        return problem.hole
+    return Hole.arc(180.0 - problem.alpha if problem.floats else problem.alpha)

@@ -135,6 +135,8 @@ def _check(problem: Problem) -> None:
         shown = f"{len(sections)} of them"
         raise InputError("sections", shown, what + "half a tool joint, wider sections, half a tool joint")
     problem.refuse_tapers("endless strings of joints")
+    if problem.rod.mixed:
+        raise InputError("sections", f"{len(sections)} of them", what + "all of it sinks, or all of it floats")
     if not problem.rod.symmetric:
         raise InputError("sections", f"{len(sections)} of them", what + "the same seen from either end")
     if problem.lateral_weight == 0.0:

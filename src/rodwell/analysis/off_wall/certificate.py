@@ -37,6 +37,9 @@ INSET = 1e-12
 
 _RULE = np.polynomial.legendre.leggauss(ORDER)
 
+ON_AXIS = 1e-300
+"""Distance from the hole's axis, in L, below which nothing is in contact: the direction outwards is none there."""
+
 
 @dataclass(frozen=True)
 class ContactCertificate:
@@ -159,7 +162,7 @@ def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
     half, middle = 0.5 * np.diff(grid), 0.5 * (grid[1:] + grid[:-1])
     s = (middle[:, None] + half[:, None] * points).ravel()
     x, y, pressure = position(state, s)
-    inward = -pressure / np.hypot(x[0], y[0]) * np.stack([x[0], y[0], 0.0 * s])
+    inward = -pressure / np.maximum(np.hypot(x[0], y[0]), ON_AXIS) * np.stack([x[0], y[0], 0.0 * s])
     density = in_fixed_axes(state, s, inward) + weight_axes(state)[:, None] * problem.rod.weight(s)
     panels = density.reshape(3, -1, ORDER) @ weights * half
     # between the last place of a part and the first of the next there is nothing but their insets

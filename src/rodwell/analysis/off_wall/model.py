@@ -172,8 +172,8 @@ class RodInHole:
 
     def bed(self, load: float) -> FloatArray:
         """√(wₗ/(bΔ)) of each section, (n,): its least stiffness, its largest weight."""
-        problem, ranges = self.problem, self.problem.rod.ranges
-        b, q, radius = ranges["stiffness"][0], ranges["weight"][1], self.given[:, -1]
+        problem, rod = self.problem, self.problem.rod
+        b, q, radius = rod.ranges["stiffness"][0], rod.sizes_of_weight, self.given[:, -1]
         return np.asarray(np.sqrt(problem.lateral_weight * q / (b * problem.clearance * radius)))
 
     def firmness(self, load: float) -> float:

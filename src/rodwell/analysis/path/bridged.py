@@ -1,4 +1,4 @@
-"""The load path of a string that bridges steps of the clearance: in the vertical plane, until it buckles out of it."""
+"""The load path of a string that leaves the wall by itself: in the vertical plane, until it buckles out of it."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from rodwell.errors import NotConvergedError
 from rodwell.numerics.stretches.chain import ANGLE, ANGLE_RATE
 from rodwell.numerics.stretches.newton import softest
 from rodwell.problem.problem import Problem
+from rodwell.problem.words import where_it_bridges
 
 FARTHEST = 10.0
 """End force up to which a string is compressed in search of its buckling, in that of a clamped rod of its stiffest and
@@ -37,12 +38,12 @@ JUST_BEFORE = 1e-9
 PASSED_OVER = 1e-3
 """Part of the load by which a change of contact that was not resolved is passed over."""
 
-BEYOND = "states beyond are not computed where the clearance has steps"
+BEYOND = "states beyond are not computed"
 
 
 def farthest(problem: Problem) -> float:
     """The end force in B/L² up to which a string that bridges steps is loaded if nothing is asked for."""
-    b, q = (float(np.max(problem.rod.ranges[ratio])) for ratio in ("stiffness", "weight"))
+    b, q = float(np.max(problem.rod.ranges["stiffness"])), float(np.max(problem.rod.sizes_of_weight))
     narrow = problem.clearance * float(np.min(problem.rod.ranges["clearance"]))
     of_bed = 2.0 * float(np.sqrt(b * q * problem.lateral_weight / narrow))
     return -FARTHEST * (4.0 * np.pi**2 * b + of_bed + problem.weight)
@@ -65,8 +66,14 @@ def bridging(model: RodInHole, until: float, rtol: float, progress: Callable[[fl
         )
     if start is None:
         raise NotConvergedError(
-            f"how the string bridges the steps of its clearance at F = {begin:.8g} B/L² was not found: no state whose "
-            "contacts all push and that keeps inside the hole"
+            f"how the string lies {where_it_bridges(model.problem)} at F = {begin:.8g} B/L² was not found: no state "
+            "whose contacts all push and that keeps inside the hole"
+        )
+    if start.solved.index:
+        raise NotConvergedError(
+            f"at F = {begin:.8g} B/L², where nothing is compressed, the string does not stay in the vertical plane: an "
+            "end at the bottom that may slide around the wall (guided or free) rolls up with the section beside it, "
+            "which floats; clamp or pin that end"
         )
     out = Walked(Leg(LOADING, [[start]]), last=start, ended=END)
     if begin == until:
@@ -85,7 +92,7 @@ def bridging(model: RodInHole, until: float, rtol: float, progress: Callable[[fl
         out.events.append(PathPoint(kind, one.load, tuple(map(float, event.s)), LOADING, None, state, met))
         if lost:
             how = "buckles sideways" if sideways else "gives way in its plane"
-            out.ended = f"the string {how} at F = {one.load.value:.8g} B/L²: {BEYOND}"
+            out.ended = f"the string {how} at F = {one.load.value:.8g} B/L²: {BEYOND} {where_it_bridges(model.problem)}"
     return out
 
 
@@ -113,9 +120,8 @@ def _first_loss(start: PatternedState, until: float, progress: Callable[[float],
         more = followed(again, until, largest=largest, progress=progress)
         path = Followed(kept + more.states, events + more.events, more.ended, more.along)
     if path.ended == BRANCH_POINT:
-        path.ended = (
-            f"several disturbances begin to grow near F = {path.last.load:.8g} B/L², the first of them not told"
-        )
+        grown = next((state.load for state in path.states if state.solved.index), path.last.load)
+        path.ended = f"several disturbances begin to grow near F = {grown:.8g} B/L², the first of them not told"
     return path
 
 

@@ -1,9 +1,11 @@
-"""How a string lies in a hole whose clearance has steps: it bridges them, in the vertical plane of the hole's axis.
+"""How a string lies that leaves the wall by itself: in the vertical plane of the hole's axis.
 
 Beside a step it lies on the wall of the wider part, leaves it, rises over the edge of the narrower part, touching it at
-one place without a couple, and comes down on the wall beyond. Which parts touch is found with a beam of small slopes
-that springs keep off the walls' lower sides: a convex problem, so long as the string is nowhere compressed. The pattern
-found there is solved for as any other, with the energy of any slope (:mod:`rodwell.analysis.off_wall.arrange`).
+one place without a couple, and comes down on the wall beyond. Where it begins to float it leaves the lower side for
+the upper one. Which parts touch is found with a beam of small slopes that springs keep off the walls' lower sides, and
+off the upper ones where the clearance has no steps: a convex problem, so long as the string is nowhere compressed. The
+pattern found there is solved for as any other, with the energy of any slope
+(:mod:`rodwell.analysis.off_wall.arrange`).
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ import math
 from itertools import pairwise
 
 import numpy as np
-from scipy.linalg import cholesky_banded, solveh_banded
+from scipy.linalg import cholesky_banded
 
 from rodwell.analysis.off_wall.arrange import solved, wavenumbers
 from rodwell.analysis.off_wall.changes import mended
@@ -28,7 +30,7 @@ from rodwell.analysis.off_wall.conditions import (
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.numerics.stretches.basis import tabulate
-from rodwell.numerics.stretches.carry import Sampler
+from rodwell.numerics.stretches.springs import on_springs, sampled, without_held
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import BoolArray, FloatArray
 
@@ -56,13 +58,13 @@ MENDS, ORDER = 6, (LOST, LEAVES_EDGE, GROWS_AT_END, GROWS, TOUCHES)
 SIZES = (3e-3, 1e-3, 2e-4, 1e-2)
 """Lengths in L with which contact begins that is missed beside an end or at a point: the first that gives a state."""
 
-HARDER, ROUNDS, HALVINGS = 10.0, 60, 30
-"""Factor from one stiffness of the springs to the next; rounds of Newton's method with each, halvings of a step."""
+HARDER = 10.0
+"""Factor from one stiffness of the springs to the next."""
 
 
 def unstretched(problem: Problem) -> float:
     """The least end force F at s = 1 under which no part of the straight rod is compressed."""
-    return max(problem.hung_weight, 0.0)
+    return max(problem.heaviest, 0.0)
 
 
 def bridged(model: RodInHole, load: float) -> PatternedState | None:
@@ -77,7 +79,7 @@ def bridged(model: RodInHole, load: float) -> PatternedState | None:
         if pattern in seen:
             continue
         seen.add(pattern)
-        found = solved(model, pattern, breaks, load, _sampler(places, height))
+        found = solved(model, pattern, breaks, load, sampled(places, height))
         if found is not None and (found := _mended(found)) is not None:
             return found
     return None
@@ -119,10 +121,15 @@ def _own_lengths(problem: Problem) -> FloatArray:
     """
     rod, steps = problem.rod, _steps(problem)
     lowest = np.fmin(np.append(steps, np.inf), np.append(np.inf, steps))
-    lowest = np.where(lowest > 0.0, lowest, np.max(steps))  # its neighbours lie in the same hole
-    weight = problem.lateral_weight * np.maximum(rod.ranges["weight"][1], LIGHTEST)
+    lowest = np.where(lowest > 0.0, lowest, _highest(steps))  # its neighbours lie in the same hole
+    weight = problem.lateral_weight * np.maximum(rod.sizes_of_weight, LIGHTEST)
     stiffness = rod.ranges["stiffness"][0]
     return np.asarray((FREE_LENGTH * stiffness * problem.clearance * lowest / weight) ** 0.25)
+
+
+def _highest(steps: FloatArray) -> float:
+    """The highest step in Δ; without any, the half of the hole that a string crosses where it begins to float."""
+    return float(np.max(steps)) or 1.0
 
 
 def _beam(model: RodInHole, load: float) -> tuple[FloatArray, FloatArray]:
@@ -134,13 +141,14 @@ def _beam(model: RodInHole, load: float) -> tuple[FloatArray, FloatArray]:
     parts = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks[:-1], breaks[1:], numbers, strict=True)]
     places = np.append(np.concatenate(parts), 1.0)
     band, force = _assembled(model, load, places)
-    floor, held = -_narrowest(problem, places), _held(problem, places.size)
-    cholesky_banded(_without_held(band, held), lower=True)
+    radius, held = _narrowest(problem, places), _held(problem, places.size)
+    walls = -radius, _upper(problem, radius)
+    cholesky_banded(without_held(band, held), lower=True)
     height = np.zeros(2 * places.size)
-    height[::2] = floor
+    height[::2] = walls[0]
     size = _sag(problem)
     for stiffness in size * HARDER ** np.arange(-6.0, 1.0):
-        height = _on_springs(band, force, floor, held, stiffness, height)
+        height = on_springs(band, force, walls, held, stiffness, height)
     return places, height
 
 
@@ -148,6 +156,11 @@ def _narrowest(problem: Problem, places: FloatArray) -> FloatArray:
     """The clearance in Δ at places, at a step that of the narrower part."""
     before, after = (problem.rod.clearance(np.clip(np.nextafter(places, to), 0.0, 1.0)) for to in (-1.0, 2.0))
     return np.minimum(before, after)
+
+
+def _upper(problem: Problem, radius: FloatArray) -> FloatArray:
+    """Heights of the upper side of the hole that springs keep the beam below; none where the clearance has steps."""
+    return np.full_like(radius, np.inf) if problem.rod.clearance_steps.size else radius
 
 
 def _held(problem: Problem, nodes: int) -> BoolArray:
@@ -161,8 +174,8 @@ def _held(problem: Problem, nodes: int) -> BoolArray:
 def _sag(problem: Problem) -> float:
     """Stiffness of a spring at a node that the heaviest section's weight over L presses in by less than a step."""
     steps = _steps(problem)
-    weight = problem.lateral_weight * float(np.max(problem.rod.ranges["weight"])) / problem.clearance
-    return weight / max(SAG * float(np.min(steps[steps > 0.0])), LEAST_SAG)
+    weight = problem.lateral_weight * float(np.max(problem.rod.sizes_of_weight)) / problem.clearance
+    return weight / max(SAG * float(np.min(steps[steps > 0.0], initial=_highest(steps))), LEAST_SAG)
 
 
 def _assembled(model: RodInHole, load: float, places: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -190,90 +203,43 @@ def _assembled(model: RodInHole, load: float, places: FloatArray) -> tuple[Float
     return band, force
 
 
-def _without_held(band: FloatArray, held: BoolArray) -> FloatArray:
-    """A lower band whose rows and columns of what is held are those of the identity."""
-    out, free = band.copy(), ~held
-    out[0, held] = 1.0
-    for k in range(1, 4):
-        out[k, :-k] *= free[k:] & free[:-k]
-    return out
-
-
-def _on_springs(
-    band: FloatArray, force: FloatArray, floor: FloatArray, held: BoolArray, stiffness: float, height: FloatArray
-) -> FloatArray:
-    """The beam on one-sided springs at its nodes: a convex energy, minimised by Newton's method with halved steps."""
-    free = ~held
-
-    def gradient(u: FloatArray) -> FloatArray:
-        out = band[0] * u - force
-        for k in range(1, 4):
-            out[k:] += band[k, :-k] * u[:-k]
-            out[:-k] += band[k, :-k] * u[k:]
-        out[::2] -= stiffness * np.maximum(floor - u[::2], 0.0)
-        return np.asarray(out * free)
-
-    for _ in range(ROUNDS):
-        now, pressed = gradient(height), height[::2] < floor
-        sprung = band.copy()
-        sprung[0, ::2] += stiffness * pressed
-        sprung = _without_held(sprung, held)
-        step = -solveh_banded(sprung, now, lower=True) * free
-        part = 1.0
-        for _ in range(HALVINGS):  # along a line a convex energy falls as long as its slope is negative
-            if float(gradient(height + part * step) @ step) <= 0.5 * abs(float(now @ step)):
-                break
-            part *= 0.5
-        height = height + part * step
-        if part == 1.0 and np.array_equal(pressed, height[::2] < floor):
-            break
-    return height
-
-
 def _pattern(problem: Problem, places: FloatArray, height: FloatArray, few: int) -> tuple[Pattern, FloatArray]:
     """Which parts of a beam with this height (n,) at its nodes touch: the pattern, and the ends of its stretches.
 
-    Between two corners a heavy beam that is nowhere compressed touches along one piece at most: over a gap with flat
-    contact on both sides its moment would be concave, and nowhere negative at the gap's ends. Beside an end that piece
-    begins at the end. One of no more than ``few`` nodes counts as a point, beside an end or an edge that is touched as
-    none: a force between two nodes presses both.
+    Between two corners, steps of the clearance and places where the weight changes its sign, a heavy beam that is
+    nowhere compressed touches either side along one piece at most: over a gap with flat contact on both sides its
+    moment would be concave, and nowhere negative at the gap's ends. Beside an end that piece begins at the end. One of
+    no more than ``few`` nodes counts as a point, beside an end or an edge that is touched as none: a force between two
+    nodes presses both.
     """
-    pressed = height < -_narrowest(problem, places)
-    steps = problem.rod.clearance_steps
+    radius = _narrowest(problem, places)
+    steps, corners = problem.rod.clearance_steps, np.union1d(problem.rod.clearance_steps, problem.rod.sign_changes)
     touching, breaks = [], []
-    for left, right in pairwise([0.0, *steps, 1.0]):
-        piece = places[pressed & (places > left) & (places < right)]
-        at_end = left == 0.0, right == 1.0
-        if piece.size <= few:
-            beside = np.flatnonzero(pressed & (places >= left) & (places <= right)).size > piece.size
-            if piece.size and not any(at_end) and not (beside and _next_to(places, piece, left, right)):
-                touching.append(False)
-                breaks.append(float(np.mean(piece)))
-            continue
-        touching += [True] if at_end[0] else [False, True]
-        breaks += [float(end) for end, last in zip((piece[0], piece[-1]), at_end, strict=True) if not last]
+    low, high = height < -radius, height > _upper(problem, radius)
+    for left, right in pairwise([0.0, *corners, 1.0]):
+        inside = (places > left) & (places < right)
+        for piece, pressed in sorted(((places[on & inside], on) for on in (low, high)), key=_first):
+            at_end = (left == 0.0 and pressed is low, right == 1.0 and pressed is low)
+            if piece.size <= few:
+                beside = np.flatnonzero(pressed & (places >= left) & (places <= right)).size > piece.size
+                if piece.size and not any(at_end) and not (beside and _next_to(places, piece, left, right)):
+                    touching.append(False)
+                    breaks.append(float(np.mean(piece)))
+                continue
+            touching += [True] if at_end[0] else [False, True]
+            breaks += [float(end) for end, last in zip((piece[0], piece[-1]), at_end, strict=True) if not last]
     if len(touching) == len(breaks):  # nothing touches at s = 1
         touching.append(False)
-    edges = tuple(map(float, places[pressed & np.isin(places, steps)]))
+    edges = tuple(map(float, places[low & np.isin(places, steps)]))
     return Pattern(tuple(touching), planar=True, edges=edges), np.array(breaks)
+
+
+def _first(piece: tuple[FloatArray, BoolArray]) -> float:
+    """Where a piece of contact begins."""
+    return float(np.min(piece[0], initial=1.0))
 
 
 def _next_to(places: FloatArray, piece: FloatArray, left: float, right: float) -> bool:
     """Whether nodes of a piece are next to the corner at either side of them."""
     first, last = np.searchsorted(places, piece[[0, -1]])
     return bool(places[first - 1] == left or places[last + 1] == right)
-
-
-def _sampler(places: FloatArray, height: FloatArray) -> Sampler:
-    """A beam with heights and slopes (2n,) at its nodes, as a shape in the plane."""
-
-    def sample(s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        element = np.clip(np.searchsorted(places, s, side="right") - 1, 0, places.size - 2)
-        h = np.diff(places)[element]
-        ends = np.stack([height[2 * element + k] * (h if k % 2 else 1.0) for k in range(4)], axis=1)
-        table = tabulate(3, (s - places[element]) / h, 3)
-        fields = np.zeros((2, 3, s.size))
-        fields[0] = np.einsum("okf,kf->ok", table, ends) / h ** np.arange(3)[:, None]
-        return fields, np.zeros((3, s.size))
-
-    return sample

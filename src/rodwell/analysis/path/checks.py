@@ -9,6 +9,7 @@ from rodwell.analysis.off_wall.curved.refused import refuse_holes
 from rodwell.errors import InputError, checked_number
 from rodwell.problem.problem import Problem
 from rodwell.problem.sections import refuse_sections
+from rodwell.problem.words import where_it_bridges
 from rodwell.quantities.tolerance import checked_force
 
 SOFTEST, STIFFEST = 1e-6, 1e18
@@ -75,21 +76,22 @@ def _refuse_kinks(problem: Problem) -> None:
 
 
 def checked_bridging(problem: Problem, control: str, unload_to: float | None, mirror: bool) -> None:
-    """Raise if a string whose clearance has steps has no load path here, with the reason."""
-    refuse_loose(problem, "where the clearance has steps")
+    """Raise if a string that leaves the wall by itself has no load path here, with the reason."""
+    where = where_it_bridges(problem)
+    refuse_loose(problem, where)
     if problem.lateral_weight == 0.0:
         raise InputError(
-            "sections", f"{len(problem.sections)} of them", "have steps of the clearance, and no lateral weight lays "
-            "the string on the walls: give it some (alpha above 0 and below 180), or one clearance",
+            "sections", f"{len(problem.sections)} of them", f"are not computed {where} and no lateral weight lays the "
+            "string on the walls: give it some (alpha above 0 and below 180), or one clearance and one sign of weight",
         )  # fmt: skip
     for name, value, none in (("twist", problem.twist, 0.0), ("unload_to", unload_to, None), ("mirror", mirror, False)):
         if value != none:
             raise InputError(
-                name, value, "must be left out where the clearance has steps: the string is followed in the vertical "
+                name, value, f"must be left out {where}: the string is followed in the vertical "
                 "plane, where twist would not leave it and from which it comes back as it went, until it buckles",
             )  # fmt: skip
     if control != "force":
-        raise InputError("control", control, "must be force where the clearance has steps: states beyond buckling, "
+        raise InputError("control", control, f"must be force {where}: states beyond buckling, "
                          "for which the difference counts, are not computed there")  # fmt: skip
 
 

@@ -11,6 +11,7 @@ from rodwell.analysis.off_wall.control import FORCE, Control
 from rodwell.analysis.off_wall.state import BRIDGED, OTHER_SIDE, STRAIGHT, ContactState
 from rodwell.errors import NotConvergedError
 from rodwell.faces import drawn_in_space
+from rodwell.problem.words import floats_in_part
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
@@ -133,6 +134,8 @@ class PathPoint:
     def meaning(self) -> str:
         """What happens, in words."""
         if self.kind == CRITICAL and self.state is not None and self.state.kind == BRIDGED:
+            if floats_in_part(self.state.problem):
+                return "the string of sections that sink and float buckles sideways"
             return "the string that bridges steps of the clearance buckles sideways"
         if self.to is None and self.curved:
             return (ALONG_THE_HOLE | THROUGH_THE_PLANE).get(self.plane or self.kind, MEANING[self.kind])

@@ -177,7 +177,7 @@ def _check_hole(problem: Problem) -> None:
 
 def _bent(problem: Problem) -> Fraction:
     """κᵣ of the rod that lies in an arc, positive on the outside of the bend."""
-    build = -exact(problem.build) if problem.on_top else exact(problem.build)
+    build = -exact(problem.build) if problem.on_top != problem.floats else exact(problem.build)
     return build / (1 + exact(problem.clearance) * build)
 
 

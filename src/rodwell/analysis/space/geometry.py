@@ -7,8 +7,9 @@ the rod carries the material frame {t₁, d₀, v₁}; (1) with R₁₁ = R₀�
 material frame is the braid frame turned about t₁ by −ξ₁. Its rate of turning is ω̃₁ = ω₁ − ξ₁' = −T₁/C about t₁. Of a
 rod that floats the straight one is at x = Δ, and −i and −j stand in these formulas for i and j.
 
-In a curved hole all this holds with N1, N2, T of the hole beside the rod in place of i, j, k, and i, j, k are those in
-the middle of the hole, at S = ½, where the hole is as far along k as if it were straight.
+In a curved hole all this holds with N1, N2, T of the hole beside the rod in place of i, j, k (of a rod that floats with
+−N1, −N2), and i, j, k are those in the middle of the hole, at S = ½, where the hole is as far along k as if it were
+straight.
 """
 
 from __future__ import annotations
@@ -177,6 +178,7 @@ def beside(problem: Problem, z: FloatArray) -> tuple[FloatArray, FloatArray]:
     places = float(undeformed_place(problem, np.array([0.0]))[0]) + z
     middle = np.array([0.5])
     (_, (turn,), origin), (_, frames, points) = problem.hole.at(middle), problem.hole.at(places)
+    turn = np.array([[upwards(problem)], [upwards(problem)], [1.0]]) * turn
     axis = (points - origin) @ turn.T + np.array([0.0, 0.0, 0.5])
     return axis, frames[:, :2] @ turn.T
 

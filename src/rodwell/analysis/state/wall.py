@@ -41,7 +41,8 @@ class WallLoads:
         Integral of the size of p over s, contact forces of all directions added, and its error estimate.
     angle
         ξ₂ where the contact is largest, in rad from the low side: which part of the wall bears it. Positive towards
-        the left, looking towards s = 0. In states of equal contact at several places, at the first.
+        the left, looking towards s = 0; of a rod that floats from the high side, towards the right. In states of equal
+        contact at several places, at the first.
     cylinder
         What the cylinder itself carries; None in a curved hole, whose tube the equations of a straight one do not tell.
     """

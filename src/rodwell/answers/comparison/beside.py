@@ -159,9 +159,8 @@ def _bends(problem: Problem, extra: Mapping[str, float]) -> dict[str, float]:
 
 def rod_of(problem: Problem, more: tuple[tuple[str, float], ...] = ()) -> FormulaInputs:
     """Return the rod of a problem in units B = L = 1, as formulas take it."""
-    return FormulaInputs(
-        1.0, problem.weight, problem.alpha, problem.clearance, 1.0, problem.ends, problem.pressed, more
-    )
+    alpha = 180.0 - problem.alpha if problem.floats else problem.alpha  # a rod that floats is one upside down
+    return FormulaInputs(1.0, problem.weight, alpha, problem.clearance, 1.0, problem.ends, problem.pressed, more)
 
 
 def _extra(extra: Mapping[str, float]) -> dict[str, float]:

@@ -10,6 +10,7 @@ import numpy as np
 from rodwell.analysis.state.fields import GRID
 from rodwell.answers.result.assessment import Assessment
 from rodwell.case.case import Case
+from rodwell.problem.words import counted_around
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.table import Cell, Table
 from rodwell.strength.loaded import Fields, LoadedRod
@@ -94,7 +95,9 @@ def _columns(a: Assessment) -> tuple[str, ...]:
         f"twisting moment in the rod [{moment}]",
         f"twisting moment in the cylinder T2 [{moment}]"
         if a.case.problem.hole is None
-        else "angle around the hole from the low side, to the left looking towards s = 0 [rad]",
+        else "angle around the hole from the {} side, to the {} looking towards s = 0 [rad]".format(
+            *counted_around(a.case.problem)
+        ),
     ]
     if a.section is not None:
         columns += [

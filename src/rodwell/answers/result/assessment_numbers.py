@@ -34,6 +34,7 @@ def _at_bottom(a: Assessment) -> list[KeyNumber]:
     note += ": the most compressed place" if weight > 0.0 else "; the most compressed place is s = 1"
     if a.case.problem.hole is not None:
         note = "F less the weight over the height of the rod in its hole"
+        note = note.replace("less the weight", "and the lift") if a.case.problem.floats else note
     loads = [] if a.computed.left_before else [("critical_load_1", "Critical load of mode 1", a.window.buckling)]
     if a.computed.lying is not None:  # the load at which it buckles; else there is none, or it stands as a limit
         loads = (

@@ -17,6 +17,7 @@ from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
 from rodwell.errors import RodwellError
 from rodwell.problem.ends import OFF_WALL_ENDS
+from rodwell.problem.words import where_it_bridges
 from rodwell.quantities.value import Value
 from rodwell.strength.off_wall import RodOffWall
 from rodwell.strength.section import RodSection, StringSections, rod_section
@@ -132,7 +133,8 @@ def _at_load(
 ) -> StateBeyond | str:
     """The string under a load that acts, or why it is not known."""
     if found is not None and load.force <= found.force.value * (1.0 - SAME):
-        return "the string has buckled sideways: states beyond are not computed where the clearance has steps"
+        where = where_it_bridges(path.problem)
+        return f"the string has buckled sideways: states beyond are not computed {where}"
     try:
         if load.force > top:  # stretched more than where the path begins
             path = load_path(path.problem, until=load.force, rtol=path.rtol)

@@ -14,6 +14,7 @@ from rodwell.answers.result.key_number import KeyNumber, force_scale
 from rodwell.case.case import Case
 from rodwell.case.hole.cylinder import Cylinder
 from rodwell.problem.problem import Problem
+from rodwell.problem.words import counted_around
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import percent, plain
@@ -180,11 +181,15 @@ def _largest(name: str, field: str, label: str, peak: Peak, scale: float) -> Key
 def _bent(state: Solution) -> list[KeyNumber]:
     """In a curved hole: which part of the wall is pressed hardest, and how far around the rod lies."""
     wall, farthest = state.wall, state.largest("xi2")
-    label = "Where around the hole that is, from the low side"
-    note = "positive to the left, looking towards s = 0"
+    side, sense = counted_around(state.problem)
+    label, note = (
+        f"Where around the hole that is, from the {side} side",
+        f"positive to the {sense}, looking towards s = 0",
+    )
+    far = f"Largest angle around the hole from the {side} side, |ξ₂|"
     return [
         KeyNumber("largest_wall_force_angle", label, wall.angle, "angle", RADIAN, note, (wall.contact.s,)),
-        _largest("largest_angle", "xi2", "Largest angle around the hole from the low side, |ξ₂|", farthest, RADIAN),
+        _largest("largest_angle", "xi2", far, farthest, RADIAN),
     ]
 
 

@@ -13,6 +13,7 @@ from rodwell.answers.result.key_number import KeyNumber, force_scale
 from rodwell.case.case import Case
 from rodwell.errors import InputError
 from rodwell.problem.problem import Problem
+from rodwell.problem.words import side_of_wall
 from rodwell.quantities.value import Peak
 
 
@@ -24,7 +25,7 @@ def check_lying(case: Case) -> None:
     section = "hole" if "hole" in case.given else "dimensionless"
     given = case.given.get(section, {})
     key = next((name for name in ("survey", "centerline", "build") if name in given), "build")
-    side = "high" if case.problem.on_top else "low"
+    side = side_of_wall(case.problem)
     raise InputError(
         f"{section}.{key}",
         given.get(key),

@@ -229,7 +229,12 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
             "Give inputs that are not known well with their uncertainty "
             f'("{UNCERTAIN[case.scales.system.name]}"): the loads then get one too.'
         )
-    if case.scales is not None and not case.problem.sections and answer.lying is None:
+    if (
+        case.scales is not None
+        and not case.problem.sections
+        and answer.lying is None
+        and case.problem.hung_weight >= 0.0
+    ):
         out.append(f"Hold the formulas of practice against these loads: rodwell audit {case.source}.")
     elif takes(case.problem):
         out.append(f"Have the loads checked by another program: rodwell verify {case.source}.")

@@ -1,8 +1,10 @@
-"""What it means that the clearance of a case has steps, in sentences."""
+"""What it means that a string leaves the wall by itself, at steps of its clearance or where it floats, in sentences."""
 
 from __future__ import annotations
 
 from collections import Counter
+
+import numpy as np
 
 from rodwell.analysis.off_wall.state import PointForce
 from rodwell.answers.result.beyond import StateBeyond
@@ -10,16 +12,20 @@ from rodwell.answers.result.bridged import PART_OF_HOLE, THICKER, TOOL_JOINT, Br
 from rodwell.answers.words.advice import BAD, GOOD, OPEN, Status
 from rodwell.answers.words.wording import forces_of, place_text, size_text
 from rodwell.case.case import Case
+from rodwell.problem.words import floats_in_part, where_it_bridges
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
 
 LIMITS = (
-    "Computed is how the string lies in the vertical plane, over the edges at its steps, and the load at which it "
-    "buckles sideways. Not computed where the clearance has steps: what becomes of it after it has buckled, "
+    "Computed is how the string lies in the vertical plane, {over}, and the load at which it "
+    "buckles sideways. Not computed {where}: what becomes of it after it has buckled, "
     "its way back, friction, torque, and formulas of practice beside it.",
-    "A step is taken at its place along the rod; quasi-static, frictionless, hard walls.",
+    "{what} is taken at its place along the rod; quasi-static, frictionless, hard walls.",
 )
 """What is computed, and what is not."""
+
+STEPS, FLOATS = ("over the edges at its steps", "A step"), ("off its lower side where it floats", "A section")
+"""What it lies over, and what has its place along the rod."""
 
 MANY_JOINTS = 6
 """From so many equal joints on, the endless string of them is near enough to be named."""
@@ -43,7 +49,9 @@ def limits(found: Bridged) -> tuple[str, ...]:
     given = ["[supports]"] * (case.supports is not None) + ["[cylinder]"] * (case.cylinder is not None)
     given += ["uncertainties of inputs"] * bool(case.uncertain)
     unused = (f"Given, and not used here: {', '.join(given)}.",) if given else ()
-    return (*LIMITS, *((ENDLESS,) if _most_joints(case) >= MANY_JOINTS else ()), *unused)
+    over, what = FLOATS if floats_in_part(case.problem) else STEPS
+    told = (text.format(over=over, what=what, where=where_it_bridges(case.problem)) for text in LIMITS)
+    return (*told, *((ENDLESS,) if _most_joints(case) >= MANY_JOINTS else ()), *unused)
 
 
 def _most_joints(case: Case) -> int:
@@ -62,23 +70,49 @@ def verdict(found: Bridged) -> str:
         return f"Whether the string buckles was not found: {why}."
     load = said.load(found.buckling[0].force, other=True)
     if not found.applied:
-        return f"The string bridges the steps of its clearance and buckles sideways at {load}."
+        return f"The string {_does(found)} and buckles sideways at {load}."
     worst = min(found.applied, key=lambda one: one[0].force)[0]
     share = found.share(worst)
     assert share is not None
     if share >= 1.0:
         return f"The string buckles sideways under the load that acts: at {load}."
     return (
-        f"The string bridges the steps of its clearance and is stable under the loads that act: it buckles sideways at "
+        f"The string {_does(found)} and is stable under the loads that act: it buckles sideways at "
         f"{load}; {100.0 * max(share, 0.0):.0f} % of that is used."
     )
 
 
+def _does(found: Bridged) -> str:
+    """What the string does by itself."""
+    if floats_in_part(found.case.problem):
+        return "leaves the lower side of the hole where it begins to float,"
+    return "bridges the steps of its clearance"
+
+
+def _sides(found: Bridged) -> list[str]:
+    """On which side of the hole the string lies where, without compression, where a part of it floats."""
+    if not found.case.problem.rod.mixed:
+        return []
+    state, scales = found.alone.state, found.case.scales
+    places: dict[str, list[str]] = {"lower": [], "upper": []}
+    touched = [(one.start, one.end) for one in state.contacts]
+    touched += [(one.s, one.s) for one in state.point_forces if one.kind == "point"]
+    for start, end in sorted(touched, key=lambda ends: ends[0].value):
+        height = state.fields(np.array([0.5 * (start.value + end.value)]))["x"][0]
+        text = size_text(scales, start, "length", "L")
+        text = f"at {text}" if start is end else f"from {text} to {size_text(scales, end, 'length', 'L')}"
+        places["upper" if height > 0.0 else "lower"].append(text)
+    said = [f"on the {side} side {' and '.join(those)}" if those else f"nowhere on the {side} side"
+            for side, those in places.items()]  # fmt: skip
+    return [f"Where nothing is compressed it lies {', and '.join(said)}, from the end s = 0; its ends are held at the "
+            "bottom."]  # fmt: skip
+
+
 def _lies(found: Bridged) -> list[str]:
-    """Edges that it touches without compression: how many, of what, and the largest force on one."""
+    """Where it lies without compression, and the edges that it touches: how many, of what, the largest force on one."""
     edges, levered = found.edges, found.levered
     if not edges:
-        return []
+        return _sides(found)
     kinds = Counter(found.edge_of(point.s.value) for point in edges)
     rests = " and ".join(_edges(kind, number) for kind, number in kinds.items())
     free = [point for point in edges if point not in levered]
@@ -88,7 +122,7 @@ def _lies(found: Bridged) -> list[str]:
         said += ". That edge is next to an end that holds the string's slope: the end levers against it, and part of "
         said += "the force is the couple of the end, not weight"
         said += "" if rest is None else f"; on all other edges there are at most {_force_at(found, rest)}"
-    return [f"Where nothing is compressed it rests on {rests} {said}."]
+    return [f"Where nothing is compressed it rests on {rests} {said}.", *_sides(found)]
 
 
 def _edges(kind: str, number: int) -> str:

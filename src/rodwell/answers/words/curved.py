@@ -8,7 +8,7 @@ from rodwell.analysis.straight.lying import off_at_steps
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.steps import steps_note
 from rodwell.answers.words.verdict import in_tension
-from rodwell.answers.words.wording import forces_of, place_text, quantity, size_text
+from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
 from rodwell.quantities.text import percent
 from rodwell.quantities.value import Value
 
@@ -53,7 +53,8 @@ def _places(answer: Answer) -> str:
     own = answer.lift_off_at_own_places
     text = "Buckled states take the hole where the rod is before it buckles"
     if answer.lying is not None:
-        text = "States take the hole where the rod would be on the low side, undeformed"
+        side = side_of(answer.case)
+        text = f"States take the hole where the rod would be on the {side} side, undeformed"
     if own is None:
         return f"{text}; what that changes of the lift-off load could not be computed."
     change = Value(abs(own.value - lift.value), own.error + lift.error)

@@ -74,7 +74,7 @@ def _where(case: Case, end: SpecialPoint) -> str:
     state = end.solution
     angles = [fields_at(state.problem, f, one, np.array(end.s[:1]))["xi2"][0] for f, one in state.levels]
     angle = Value(float(angles[1]), abs(float(angles[1] - angles[0])))
-    return f"{places_text(case, end)}, on {around_text(angle)}"
+    return f"{places_text(case, end)}, on {around_text(angle, case.problem)}"
 
 
 def lies_from(a: Assessment, lying: LyingRod, *, first: bool = True) -> str:
@@ -112,7 +112,7 @@ def how_it_lies(a: Assessment, lying: LyingRod) -> str:
             (last.wall.contact, "force_per_length", "B/L³"), (last.wall.total, "force", "B/L²")
         )
     )  # fmt: skip
-    most = f"{around_text(last.wall.angle)} at {place_text(a.case, Value(last.wall.contact.s))}"
+    most = f"{around_text(last.wall.angle, a.case.problem)} at {place_text(a.case, Value(last.wall.contact.s))}"
     return (
         "Weight and bend press the rod to different sides of this hole, so that it lies on no straight line along it "
         f"and moves with every change of the load: {'; '.join(parts)}. There the wall bears at most {push}, {total} in "
@@ -124,5 +124,6 @@ def how_it_lies(a: Assessment, lying: LyingRod) -> str:
 def _angles(state: LoadedRod) -> str:
     """Between which angles around the hole a state lies."""
     high, low = state.largest(lambda f: ROUND + f["xi2"]), state.largest(lambda f: ROUND - f["xi2"])
-    first, last = around_text(Value(ROUND - low.value, low.error)), around_text(Value(high.value - ROUND, high.error))
+    ends = Value(ROUND - low.value, low.error), Value(high.value - ROUND, high.error)
+    first, last = (around_text(angle, state.problem) for angle in ends)
     return f"on {first} all along" if first == last else f"from {first} to {last}"

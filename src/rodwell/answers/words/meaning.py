@@ -23,7 +23,8 @@ from rodwell.answers.words.steps import HOLDS, held, steps_note
 from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
 from rodwell.answers.words.wording import around_text, forces_of, place_text, places_text, size_text, soft_wall
 from rodwell.case.case import Case
-from rodwell.problem.words import ends_text
+from rodwell.problem.problem import Problem
+from rodwell.problem.words import counted_around, ends_text
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import minus, percent, plain, signed
 from rodwell.quantities.value import Value
@@ -86,7 +87,7 @@ def sentences(answer: Answer) -> list[str]:
         _stability(answer) if tells_buckling or (answer.lying and answer.lying.buckled) else "",
         *window_sentences(a),
     ]
-    out.append(_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "")
+    out.append(_wall(answer.key_numbers, answer.case.scales, answer.case.problem) if answer.at_lift_off else "")
     out += [_inputs(answer)] if answer.sensitivities else []
     out += in_curved_hole(answer) if bent else []
     out.append(a.validity.sentence)
@@ -221,7 +222,7 @@ def _signed(change: Value) -> str:
     return f"{signed(value, 1)} ± {plain(error, 1)} %"
 
 
-def _wall(numbers: Mapping[str, KeyNumber], scales: Scales | None) -> str:
+def _wall(numbers: Mapping[str, KeyNumber], scales: Scales | None, problem: Problem) -> str:
     """What wall and supports bear at lift-off."""
 
     def text(name: str, unit: str) -> str:
@@ -232,8 +233,9 @@ def _wall(numbers: Mapping[str, KeyNumber], scales: Scales | None) -> str:
         f"{text('total_wall_force', 'B/L²')} in all"
     )
     if "support_torque" not in numbers:
-        side = around_text(numbers["largest_wall_force_angle"].number)
-        far = around_text(numbers["largest_angle"].number).replace(" to the left of", " from")
+        side = around_text(numbers["largest_wall_force_angle"].number, problem)
+        far = around_text(numbers["largest_angle"].number, problem)
+        far = far.replace(f" to the {counted_around(problem)[1]} of", " from")
         return f"{bears}, the most on {side}; the rod lies up to {far}."
     support = (
         "the cylinder's supports need no torque"

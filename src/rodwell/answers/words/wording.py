@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from rodwell.problem.problem import Problem
+from rodwell.problem.words import counted_around, side_of_wall
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import amount, plain
@@ -67,7 +69,7 @@ def place_text(case: Case, place: Value) -> str:
 
 def side_of(case: Case) -> str:
     """The side of the hole that the rod lies on before it buckles: "low" or "high"."""
-    return "high" if case.problem.on_top != case.problem.floats else "low"
+    return side_of_wall(case.problem)
 
 
 def soft_wall(case: Case) -> list[str]:
@@ -82,16 +84,17 @@ def soft_wall(case: Case) -> list[str]:
     ]
 
 
-def around_text(angle: Value) -> str:
-    """Where around the hole an angle ξ₂ from the low side is: "the low side", "12° to the left of the low side"."""
+def around_text(angle: Value, problem: Problem) -> str:
+    """Where around the hole an angle ξ₂ is: "the low side", "12° to the left of the low side"."""
+    (side, sense), opposite = counted_around(problem), {"low": "high", "high": "low", "left": "right", "right": "left"}
     degrees = angle.times(180.0 / math.pi)
     turned = (degrees.value + 180.0) % 360.0 - 180.0
     if abs(turned) < NEARLY:
-        return "the low side"
+        return f"the {side} side"
     if abs(abs(turned) - 180.0) < NEARLY:
-        return "the high side"
-    side = "left" if turned > 0.0 else "right"
-    return f"{amount(Value(abs(turned), degrees.error), 3)}° to the {side} of the low side"
+        return f"the {opposite[side]} side"
+    sense = sense if turned > 0.0 else opposite[sense]
+    return f"{amount(Value(abs(turned), degrees.error), 3)}° to the {sense} of the {side} side"
 
 
 NEARLY = 0.05

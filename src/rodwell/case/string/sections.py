@@ -94,6 +94,16 @@ class PhysicalString:
         return first + sum((one.weight - first) * one.rod.length for one in self.members) / self.length
 
     @cached_property
+    def mixed(self) -> bool:
+        """Whether some sections sink and others float."""
+        return min(min(one.weights) for one in self.members) < 0.0 < max(max(one.weights) for one in self.members)
+
+    @cached_property
+    def unit_weight(self) -> float:
+        """Weight per length in N/m that others are ratios to: the mean, or the largest where some sections float."""
+        return max(abs(one) for member in self.members for one in member.weights) if self.mixed else self.weight
+
+    @cached_property
     def longest(self) -> Member:
         """The longest section, the first of equals: its stiffness is the unit B."""
         return max(self.members, key=lambda member: member.rod.length)
@@ -114,13 +124,13 @@ class PhysicalString:
 
     @cached_property
     def sections(self) -> tuple[Section, ...]:
-        """Lengths in L, and ratios to the longest section's stiffness and the mean weight."""
-        unit, mean = self.longest.rod, self.weight
+        """Lengths in L, and ratios to the longest section's stiffness and the unit of weight."""
+        unit, whole = self.longest.rod, self.unit_weight
         return tuple(
             (
                 one.rod.length / self.length,
                 _ratio(rod.stiffness / unit.stiffness for rod in one.rods),
-                _ratio(weight / mean if mean != 0.0 else 1.0 for weight in one.weights),
+                _ratio(weight / whole if whole != 0.0 else 1.0 for weight in one.weights),
                 1.0,
                 _ratio(rod.torsional_stiffness / unit.torsional_stiffness for rod in one.rods),
             )
@@ -139,7 +149,7 @@ class PhysicalString:
 
     def facts(self) -> tuple[Fact, ...]:
         """Where the numbers of each section come from."""
-        note = "the longest section; weights are set against their mean"
+        note = "the longest section; weights are set against " + ("the largest" if self.mixed else "their mean")
         tapers = "" if self.longest.taper is None else ", at its lower end"
         out = [Fact("unit of stiffness B", f"{self.longest.key}{tapers}", note=note)]
         for one in {member.key: member for member in self.members}.values():
@@ -207,12 +217,8 @@ def string_of(
         raise InputError("string", None, "has no section: give one [[string]] for each, from the bottom up")
     string = PhysicalString(tuple(members))
     for member in string.members:
-        wrong = [weight for weight in member.weights if weight * string.weight < 0.0]
-        if wrong:
-            what = "floats" if wrong[0] < 0.0 else "does not float"
-            what += "" if member.taper is None else ", at least in a part of it"
-            reason = f"{what}, unlike the string as a whole: sections that lie on both sides of a hole are not computed"
-            raise InputError(member.key, None, reason)
+        if min(member.weights) < 0.0 < max(member.weights):
+            raise InputError(member.key, None, "begins to float within the section: part it there")
     return string, fluids
 
 
@@ -291,8 +297,4 @@ def _as_section(number: int, name: str) -> Iterator[None]:
         field: str = error.field
         if field.startswith("rod."):
             field = f"{called(number, name)}.{field.removeprefix('rod.')}"
-        raise InputError(field, error.value, _of_section(error.reason)) from None
-
-
-def _of_section(reason: str) -> str:
-    return reason.replace("rod.", "")
+        raise InputError(field, error.value, error.reason.replace("rod.", "")) from None

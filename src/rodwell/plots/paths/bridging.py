@@ -1,4 +1,4 @@
-"""A string that bridges steps of its clearance, seen from the side: walls, rod, contact forces."""
+"""A string that leaves the wall by itself, seen from the side: walls, rod, contact forces."""
 
 from __future__ import annotations
 
@@ -42,6 +42,8 @@ def plot_bridging(
 ) -> Any:
     """Draw the hole's lower side, that of the string, and point forces as arrows; return the axes.
 
+    Where sections float, the upper side too.
+
     Height is drawn much larger than length. Without ``scales`` lengths are in L and heights in Δ. ``pairs`` have the
     diameters of hole and string; without them the string's axis is drawn, and the wall where the axis meets it.
     """
@@ -56,8 +58,13 @@ def plot_bridging(
     lengths = np.array([end for piece in pieces for end in (piece.start, piece.end)]) * along
     floor = np.repeat([-piece.hole for piece in pieces], 2)
     s, height = _lower_side(state, pieces, across)
-    room = float(np.max(height) - np.min(floor))
-    base, top = float(np.min(floor)) - WALL * room, float(np.max(height)) + 0.4 * room
+    both = problem.rod.mixed
+    highest = -float(np.min(floor)) if both else float(np.max(height))
+    room = highest - float(np.min(floor))
+    base, top = float(np.min(floor)) - WALL * room, highest + (WALL + ARROW if both else 0.4) * room
+    if both:
+        ax.fill_between(lengths, -floor, highest + WALL * room, color="#d9dee3", lw=0)
+        ax.plot(lengths, -floor, color=GREY, lw=1.0)
     ax.fill_between(lengths, base, floor, color="#d9dee3", lw=0)
     ax.plot(lengths, floor, color=GREY, lw=1.0)
     if pairs:
@@ -70,7 +77,8 @@ def plot_bridging(
     for point in state.point_forces:
         at = float(np.min(height[np.abs(s - point.s.value) < SAME]))
         size = ARROW * room * point.force.value / largest
-        ax.annotate("", xy=(point.s.value * along, at), xytext=(point.s.value * along, at - max(size, 0.05 * room)),
+        tail = at + (1.0 if both and at > 0.0 else -1.0) * max(size, 0.05 * room)
+        ax.annotate("", xy=(point.s.value * along, at), xytext=(point.s.value * along, tail),
                     arrowprops={"arrowstyle": "-|>", "color": WARN, "lw": 1.4, "shrinkA": 0, "shrinkB": 0})  # fmt: skip
     ax.plot([], [], color=WARN, lw=1.4, label="point forces")
     handles, labels = ax.get_legend_handles_labels()

@@ -10,6 +10,8 @@ from rodwell.answers.result.beyond import StateBeyond
 from rodwell.answers.result.bridged import Bridged
 from rodwell.answers.words.bridged import bridged_sentences, bridged_statuses, limits
 from rodwell.answers.words.wording import forces_of, quantity, size_text
+from rodwell.case.case import Case
+from rodwell.problem.words import floats_in_part
 from rodwell.quantities.value import Value
 from rodwell.report.reports.content import Front, Grid, Items, Number, Picture, Report, ReportSection, Words
 from rodwell.report.reports.texts import conversions, derived, inputs
@@ -27,7 +29,7 @@ def bridged_report(found: Bridged) -> Report:
     facts = [(label, value) for label, value, _ in conversions(case)]
     return Report(
         title=case.title,
-        subtitle=f"String over steps of its clearance · rodwell {__version__} · {today}",
+        subtitle=f"{_kind_of(case)} · rodwell {__version__} · {today}",
         front=Front(text[0], bridged_statuses(found), _numbers(found), _picture(found), " ".join(said),
                     tuple(text[1 : -len(said)]), "What else was found"),
         sections=(
@@ -42,6 +44,10 @@ def bridged_report(found: Bridged) -> Report:
         paper="us-letter" if case.scales is not None and case.scales.system.name == "field" else "a4",
         about=case.about.lines,
     )  # fmt: skip
+
+
+def _kind_of(case: Case) -> str:
+    return "String that floats in part" if floats_in_part(case.problem) else "String over steps of its clearance"
 
 
 def _numbers(found: Bridged) -> tuple[Number, ...]:
@@ -62,12 +68,15 @@ def _numbers(found: Bridged) -> tuple[Number, ...]:
 
 
 def _picture(found: Bridged) -> Picture:
+    lines = "the lower side of the hole (grey) and of the string (blue)"
+    if floats_in_part(found.case.problem):
+        lines = "how far its axis may move (grey), the axis (blue)"
     when = "without compression" if found.buckling is None else "when it buckles"
     return Picture(
         PICTURE,
         f"The string in its hole, seen from the side, {when}",
-        f"The string {when}, seen from the side: the lower side of the hole (grey) and of the string (blue), stretches "
-        "in contact (black) and point forces (red). Height is drawn much larger than length.",
+        f"The string {when}, seen from the side: {lines}, stretches in contact (black) and point forces (red). Height "
+        "is drawn much larger than length.",
     )
 
 

@@ -14,6 +14,7 @@ from rodwell.answers.words.meaning import sentences
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
 from rodwell.plots.ordinates import ORDINATES, telling
+from rodwell.problem.words import counted_around
 from rodwell.quantities.text import plain
 from rodwell.report.reports.content import Grid, Items, Picture, Report, ReportSection, Words
 from rodwell.report.reports.files import CONVENTION_OF_DATA, FILES, linked
@@ -141,7 +142,7 @@ def _pictures(computed: Computed) -> ReportSection:
                 f"Push on the wall, and {'twisting moment in the cylinder' if straight else 'angle around the hole'}, "
                 "along the rod",
                 f"{first} at several loads. Above: {pushed}; the rod lifts off where it reaches 0. Below: "
-                + (BELOW if straight else BELOW_IN_CURVED_HOLE),
+                + (BELOW if straight else BELOW_IN_CURVED_HOLE.format(*counted_around(computed.case.problem))),
             ),
             *(
                 [
@@ -178,7 +179,7 @@ BELOW = (
 )
 
 BELOW_IN_CURVED_HOLE = (
-    "which part of the wall bears it, as the angle around the hole from the low side, positive to the left looking "
+    "which part of the wall bears it, as the angle around the hole from the {} side, positive to the {} looking "
     "towards s = 0."
 )
 

@@ -8,7 +8,7 @@ from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED
 from rodwell.answers.words.in_space import no_window
 from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.verdict import load_text, local_sentence, share_shown
-from rodwell.answers.words.wording import forces_of, place_text, quantity
+from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of
 from rodwell.quantities.forces import end_name
 from rodwell.quantities.text import amount, minus, number_text, percent, plain
 from rodwell.quantities.units import SI, System
@@ -62,10 +62,10 @@ def _at_loads(a: Assessment) -> tuple[ReportSection, ...]:
         tuple(tuple(row.get(name, "") for _, name in shown_columns) for row in rows),
         numeric=tuple(i for i in range(len(shown_columns)) if i not in (0, 2)),
     )
+    by = "by buckling" if a.computed.lying is None else f"against the undeformed rod on the {side_of(a.case)} side"
     note = (
         f"{'Effective forces. ' if a.case.with_fluids else ''}The approach of the ends is that "
-        f"{'by buckling' if a.computed.lying is None else 'against the undeformed rod on the low side'}. Where the "
-        "rod has left the wall, or mode 1 has lost its stability, no numbers are given."
+        f"{by}. Where the rod has left the wall, or mode 1 has lost its stability, no numbers are given."
     )
     missed = [Words(sentence, "warning") for sentence in unreached(a)]
     return (ReportSection("At the loads that act", (table, Words(note, "small"), *missed)),)
