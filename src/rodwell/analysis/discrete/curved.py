@@ -18,6 +18,7 @@ from rodwell.problem.hole import Hole
 from rodwell.problem.lying import lying_rod_beside, places_of_lying_rod
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
+from rodwell.problem.sections import PLAIN
 from rodwell.quantities.arrays import FloatArray
 
 PIECES = 64
@@ -181,12 +182,23 @@ def height_of_rod(problem: Problem, places: FloatArray, angle: FloatArray) -> Fl
 
 @lru_cache(maxsize=64)
 def along_rod(problem: Problem) -> HoleAlong:
-    """The hole along the undeformed rod of a problem.
+    """The hole along the undeformed rod of a problem."""
+    return along_other_rod(problem, problem.rod)
+
+
+@lru_cache(maxsize=64)
+def along_uniform_rod(problem: Problem) -> HoleAlong:
+    """The same of a uniform rod in its place, on the same pieces."""
+    return along_other_rod(problem, Rod(PLAIN))
+
+
+def along_other_rod(problem: Problem, rod: Rod) -> HoleAlong:
+    """The same with another rod in its place, whose sections end where sections of the problem's do.
 
     A(s) = ∫ₛ¹ q T·k ds, of a uniform rod by how much higher the loaded end lies than the rod at s. The rod has the
     curvature κᵣ = k₁/(1 + Δk₁): what moves on bends with it, which gives C(s) = −∫ₛ¹ b κᵣκᵣ′ ds.
     """
-    rod, rise = problem.rod, hung(problem, pieces_of(problem))
+    rise = hung(problem, rod, pieces_of(problem))
 
     def bending(k1: FloatArray) -> FloatArray:
         return np.asarray(0.5 * (k1 / (1.0 + problem.clearance * k1)) ** 2)
@@ -204,11 +216,11 @@ def along_rod(problem: Problem) -> HoleAlong:
     return hole_along(rod, pieces_of(problem), functions)
 
 
-def hung(problem: Problem, breaks: FloatArray) -> PiecewisePolynomial:
+def hung(problem: Problem, rod: Rod, breaks: FloatArray) -> PiecewisePolynomial:
     """A(s) = ∫ₛ¹ q T·k ds of the undeformed rod, between ``breaks``."""
 
     def climb(s: FloatArray) -> FloatArray:
-        return problem.rod.weight(s) * hole_at(problem, undeformed_place(problem, s))[1]
+        return rod.weight(s) * hole_at(problem, undeformed_place(problem, s))[1]
 
     return lifted(breaks, climb)
 

@@ -69,8 +69,6 @@ def left_out(answer: Answer) -> str:
         parts.append("derivatives by the inputs")
         if answer.case.uncertain:
             parts[-1] += ", so that the uncertainties given are not carried through"
-    elif answer.case.problem.sections:
-        parts.append("derivatives by the data of each section")
     if answer.case.cylinder is not None:
         parts[2] += " and its stress"
     return f"Not told of a curved hole: {', '.join(parts[:-1])}, and {parts[-1]}."

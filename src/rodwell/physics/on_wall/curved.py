@@ -20,6 +20,7 @@ from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, S
 from rodwell.physics.on_wall.sections import of_section, times
 
 FUNCTIONS = ("k1", "k2", "g1", "g2", "lift", "offset")
+LIFT, OFFSET = (FUNCTIONS.index(name) for name in ("lift", "offset"))
 DEGREE = 6
 TERMS = DEGREE + 1
 
