@@ -145,9 +145,6 @@ def _check_hole(problem: Any) -> None:
     refuse_off_wall(problem.ends, "the states of a rod in a curved hole")
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "must be 0 in a curved hole: coils are computed in straight ones")
-    if problem.tapered:
-        why = "must have one stiffness, weight and torsion in each in a curved hole: sections that taper are computed "
-        raise InputError("sections", "tapered", why + "in straight holes; cut the taper into steps")
     if problem.bridges:
         why = "must have one clearance in a curved hole: strings that bridge its steps are computed in straight holes; "
         raise InputError("sections", f"{len(problem.sections)} of them", why + "give one clearance for all sections")

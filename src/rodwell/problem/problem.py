@@ -8,13 +8,11 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from rodwell.errors import InputError
 from rodwell.problem.checks import check
 from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS
 from rodwell.problem.hole import Hole
-from rodwell.problem.lying import heights_of_lying_rod
+from rodwell.problem.lying import hung_from_end
 from rodwell.problem.points import Rows
 from rodwell.problem.profile import Ratio
 from rodwell.problem.rod import Rod
@@ -64,8 +62,8 @@ class Problem:
         uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
         ``poisson`` give C of torsion ratio 1. A clearance ratio that all share goes into ``clearance``; where it has
         steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
-        computed of rods that stay on the wall is refused. In a curved hole each section has one stiffness, weight and
-        torsion, and all have one clearance. None given: a uniform rod.
+        computed of rods that stay on the wall is refused. In a curved hole all have one clearance. None given: a
+        uniform rod.
     build, walk
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
         turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the
@@ -208,9 +206,8 @@ class Problem:
             return self.axial_weight * self.rod.whole_weight if self.sections else self.axial_weight
         if self.axial_weight == 0.0 and not self.axis and self.rod.symmetric:
             return 0.0  # a level arc is alike from both ends
-        reach, breaks = -self.clearance if self.on_top else self.clearance, self.rod.breaks
-        rises = np.diff(heights_of_lying_rod(self.hole, reach, breaks))
-        return self.weight * float(self.rod.weight(breaks[:-1]) @ rises)
+        reach = -self.clearance if self.on_top else self.clearance
+        return self.weight * hung_from_end(self.hole, reach, self.rod.weight)
 
     @property
     def axial_weight(self) -> float:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from rodwell.analysis.discrete.curved import HoleAlong, along_rod, along_uniform_rod
-from rodwell.physics.on_wall.curved import FIRST, FUNCTIONS, LIFT, OFFSET, STIFFNESS, TERMS
+from rodwell.physics.on_wall.curved import BENDING, FIRST, FUNCTIONS, LIFT, OFFSET, STIFFNESS, TERMS
 from rodwell.physics.on_wall.curved import hole_at as tabulated
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import IntArray
@@ -32,6 +32,10 @@ def moved_section(problem: Problem, number: int, ratio: str) -> Callable[[float]
     change[np.ix_(within, of_rod)] = one.rows[np.ix_(within, of_rod)]
     if ratio == "stiffness":
         change[within, STIFFNESS] = one.rows[within, STIFFNESS]
+        if rod.tapered:
+            change[within, FIRST + BENDING * TERMS] = 1.0
+        if rod.tapers(ratio)[number]:
+            change[np.ix_(within, _columns(BENDING))] = own.rows[np.ix_(within, _columns(BENDING))]
     along = OFFSET if ratio == "stiffness" else LIFT
     start, end = (float(tabulated(x, one(x).T)[along][0]) for x in (np.array([low]), np.array([high])))
     constant = FIRST + along * TERMS

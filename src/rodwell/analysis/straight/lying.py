@@ -74,7 +74,7 @@ def lying_steps(problem: Problem, force: float) -> tuple[FloatArray, FloatArray]
     steps, rows = problem.rod.breaks[1:-1], along_rod(problem)
     still = np.zeros((4, steps.size))
     sides = rows(np.nextafter(steps, 0.0)).T, rows(steps).T
-    return step_loads(steps, (still, still), sides, parameters(problem, force))
+    return step_loads(steps, (still, still), sides, problem.rod.stiffness_sides, parameters(problem, force))
 
 
 def off_at_steps(problem: Problem, force: float) -> float | None:

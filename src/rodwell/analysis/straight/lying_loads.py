@@ -21,7 +21,7 @@ from rodwell.errors import NotConvergedError
 from rodwell.numerics.equilibria import eigen
 from rodwell.numerics.splines.banded import factorise
 from rodwell.numerics.splines.spaces import SplineSpace
-from rodwell.physics.on_wall.curved import RodInCurvedHole
+from rodwell.physics.on_wall.curved import model_of
 from rodwell.physics.on_wall.parameters import COUNT
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -63,7 +63,7 @@ def variation_factors(problem: Problem, space: SplineSpace) -> tuple[FloatArray,
 
 def hessian_at(s: FloatArray, rows: FloatArray, p: FloatArray) -> FloatArray:
     """Hessian of the density at y = 0 by y, y′, y″, (3, 3, m), at places (m,), in the hole given by ``rows`` there."""
-    hessian = RodInCurvedHole.density(s, np.zeros((3, s.size)), rows.T, p, np.zeros(COUNT))[-1]
+    hessian = model_of(rows.T).density(s, np.zeros((3, s.size)), rows.T, p, np.zeros(COUNT))[-1]
     return np.array([[np.broadcast_to(x, s.shape) for x in row] for row in hessian], dtype=float)
 
 
