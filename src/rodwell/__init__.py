@@ -51,7 +51,7 @@ _HOME = {
     "RodwellError": "rodwell.errors",
     "Screening": "rodwell.studies.well.screening",
     "Solution": "rodwell.analysis.branch.solution",
-    "Sensitivity": "rodwell.analysis.loads.sensitivity",
+    "Sensitivity": "rodwell.analysis.loads.derivatives",
     "SpecialPoint": "rodwell.analysis.branch.special",
     "SpatialMode": "rodwell.analysis.straight.without_wall",
     "Study": "rodwell.studies.sweep.study",
@@ -117,8 +117,9 @@ if TYPE_CHECKING:
     from rodwell.analysis.endless.endless import Endless, endless
     from rodwell.analysis.endless.jointed import JointedString, jointed_string
     from rodwell.analysis.endless.local import LocalState, local_state
+    from rodwell.analysis.loads.derivatives import Sensitivity
     from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
-    from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
+    from rodwell.analysis.loads.sensitivity import sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
     from rodwell.analysis.loads.turns import turns_of_least_energy
     from rodwell.analysis.path.elsewhere import follow_contact

@@ -10,7 +10,8 @@ from click.testing import CliRunner
 
 import rodwell
 from rodwell import InputError, Problem
-from rodwell.analysis.loads.sensitivity import PARAMETERS, Sensitivity, of_lift_off
+from rodwell.analysis.loads.derivatives import PARAMETERS, Sensitivity
+from rodwell.analysis.loads.ends import of_lift_off
 from rodwell.cli.main import cli
 
 PROBLEMS = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ import pytest
 
 import rodwell
 from rodwell import Case, InputError
+from rodwell.analysis.loads.derivatives import Sensitivity
+from rodwell.analysis.loads.ends import of_lift_off
 from rodwell.analysis.loads.sensitivity import of_critical_load
 from rodwell.answers.result.spread import spread_of_load
 
@@ -155,3 +158,42 @@ def test_answer_and_report_carry_it(tmp_path) -> None:
     assert "rod.length = 30 m ± 0.1 m" in page
     size = result.case.scales.system.text(result.spreads[-1].total, "force", 2)
     assert f"± {size}" in page.partition('id="section-1"')[0]  # there ± is the uncertainty of the inputs
+
+
+SURVEY = {
+    "in a vertical plane": "0,0,90\n900,0,90\n1000,10,90\n1030,13.5,90\n1060,17,90\n1090,20,90\n1200,30,90\n",
+    "that turns": "0,0,90\n900,0,90\n1000,10,90\n1030,13.5,84\n1060,17,78\n1090,20,74\n1200,30,70\n",
+}
+
+
+@pytest.mark.parametrize("kind", SURVEY)
+def test_an_input_that_moves_the_hole_of_a_survey(kind: str, tmp_path: Path) -> None:
+    """Depth and length move the piece of the hole in which the rod lies; against cases computed at both ends."""
+    (tmp_path / "well.csv").write_text(f"MD (m),Inc (deg),Azi (deg)\n{SURVEY[kind]}")
+
+    def along(**changes: str) -> Case:
+        rod = {"outer_diameter": "5 in", "inner_diameter": "3 in", "material": "steel", "length": "45 m"}
+        data: dict[str, dict[str, Any]] = {"rod": rod, "hole": {"diameter": "8.5 in", "survey": "well.csv"}}
+        data["hole"]["to"] = "1080 m"
+        for key, value in changes.items():
+            section, name = key.split("__")
+            data[section][name] = value
+        return Case.from_dict(data, folder=tmp_path)
+
+    def load_of(case: Case) -> tuple[Sensitivity, float]:
+        assert case.scales is not None
+        if case.problem.hole is not None and case.problem.hole.planar:
+            load = of_critical_load(rodwell.critical_loads(case.problem, 1, rtol=1e-10)[0])
+        else:
+            end = rodwell.lying_rod(case.problem, rtol=1e-9).end
+            assert end is not None
+            load = of_lift_off(end)
+        return load, load.force * case.scales.factor("force")
+
+    for key, text, by in (("hole__to", "{:.2f} m", 0.05), ("rod__length", "{:.2f} m", 0.02)):
+        middle = 1080.0 if key == "hole__to" else 45.0
+        case = along(**{key: f"{text.format(middle)} ± {by} m"})
+        spread = spread_of_load(load_of(case)[0], case.scales, case.uncertain)
+        assert spread is not None
+        low, high = (load_of(along(**{key: text.format(middle + move)}))[1] for move in (-by, by))
+        assert spread.parts[key.replace("__", ".")] == pytest.approx(0.5 * (high - low), rel=3e-4)

@@ -49,7 +49,7 @@ def test_critical_as_json() -> None:
         (("critical", "--build", "0.2", "--ends", "ball-ball"), "leaves the wall at a ball end"),
         (("critical", "--build", "0.2", "--sections", "0.5:1:1:1.2,0.5:2"), "must have one clearance in a curved hole"),
         (("certify", "--build", "0.2"), "loads are proved of a rod without weight"),
-        (("sensitivity", "--build", "0.2", "--walk", "0.1"), "no critical load"),
+        (("sensitivity", "--build", "0.2", "--walk", "0.1", "--mode", "2"), "no critical load"),
         (("twist", "--build", "0.2"), "in straight holes only"),
         (("path", "--build", "0.2", "--walk", "0.1", "--until", "-200"), "lies beside the bottom"),
         (("path", "--build", "0.2", "--until", "-200", "--wall-stiffness", "1e6"), "whose wall is hard here"),

@@ -95,6 +95,17 @@ def test_an_inclined_hole_gives_both_histories() -> None:
         ("mud.density = '70 lb/gal': lifts the tubing", {"mud__density": "70 lb/gal"}),
         (r"packer.bore = '1 in': is below the tubing's inner diameter of 0.0620\d* m \(2.44\d* in\)", {"bore": "1 in"}),
         (
+            r"rod.core_diameter = .*: is that of a solid core, and tubing in a packer has a bore",
+            {
+                "rod__inner_diameter": None,
+                "rod__core_diameter": "1 in",
+                "rod__weight_per_length": "5 lbf/ft",
+                "mud__density": None,
+                "mud__outside": "1 g/cm^3",
+                "inside": None,
+            },
+        ),
+        (
             "rod.inner_diameter",
             {"rod__inner_diameter": None, "mud__density": None, "mud__outside": "1 g/cm^3", "inside": None},
         ),

@@ -112,7 +112,7 @@ def audit(
     from rodwell.report.folders.audit import write_audit  # noqa: PLC0415
     from rodwell.studies.audit.audit import audit as compute  # noqa: PLC0415
 
-    drawn = chart and read.problem.hole is None  # the map turns the hole, which would be another one if it is curved
+    drawn = chart and not (read.problem.hole or read.problem.sections)  # maps turn the hole of a uniform rod
     if store is not None and not drawn:
         raise InputError("--store", store, "keeps the loads of a chart, and none is drawn here: leave it out")
 
@@ -209,7 +209,7 @@ def _print_loads(console: Any, audit: Audit) -> None:
         value = "–" if row.value is None else _force(audit, row.value)
         title = f"[bold]against {_safe(titles.get(row.against, NAMES[row.against]))}[/bold]"
         groups.setdefault(row.against, [title]).append(
-            (f"  {_safe(row.formula.name)}", value, str(row.formula.place), *cells, _verdict(row, row.main),
+            (f"  {_safe(row.formula.name)}", value, _safe(row.at), *cells, _verdict(row, row.main),
              "yes" if row.valid else "no")
         )  # fmt: skip
     errors = [f">{place}" for place in PLACES] if inclined else [">error"]

@@ -12,7 +12,7 @@ from rodwell.cli.options import UNIT, check_missed, json_option, make_problem, p
 from rodwell.quantities.text import signed, with_error
 
 if TYPE_CHECKING:
-    from rodwell.analysis.loads.sensitivity import Sensitivity
+    from rodwell.analysis.loads.derivatives import Sensitivity
     from rodwell.report.folders.numbers import Numbers
 
 
@@ -81,7 +81,7 @@ def _sensitivity_numbers(data: dict[str, Any], loads: tuple[Sensitivity, ...]) -
 
 
 _PER = {"weight": "unit of γ", "alpha": "degree of α", "clearance": "unit of Δ/L", "twist": "B/L of T₁",
-        "build": "1/L of build"}  # fmt: skip
+        "build": "1/L of build", "walk": "1/L of walk"}  # fmt: skip
 _OF_SECTION = {
     "stiffness": "unit of the stiffness ratio, section {}",
     "weight": "unit of the weight ratio, section {}",
@@ -96,4 +96,5 @@ _MORE = {
     "length": "1 % more length L",
     "alpha": "1° more from the vertical",
     "build": "1 % more curvature, build",
+    "walk": "1 % more turn, walk",
 }

@@ -152,9 +152,6 @@ def _check_hole(problem: Any) -> None:
     refuse_off_wall(problem.ends, "the states of a rod in a curved hole")
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "must be 0 in a curved hole: coils are computed in straight ones")
-    if problem.tapered:
-        why = "must have one stiffness, weight and torsion in each in a curved hole: sections that taper are computed "
-        raise InputError("sections", "tapered", why + "in straight holes; cut the taper into steps")
     if problem.bridges and not problem.rod.clearance_steps.size:
         why = "must all sink or all float in a curved hole: strings with sections of both kinds are computed in "
         raise InputError("sections", f"{len(problem.sections)} of them", f"{why}straight holes")

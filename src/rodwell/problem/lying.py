@@ -7,6 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from rodwell.problem.hole import Hole
+from rodwell.problem.profile import Profile
 from rodwell.quantities.arrays import FloatArray
 
 GRID = 2571
@@ -67,3 +68,23 @@ def heights_of_lying_rod(hole: Hole, reach: float, s: FloatArray) -> FloatArray:
     """Heights (m,) at ``s`` (m,) of a rod on that generator, in L, above S = 0 of the hole's axis."""
     _, frames, points = hole.at(places_of_lying_rod(hole, reach, s))
     return np.asarray(points[:, 2] - reach * frames[:, 0, 2])
+
+
+PANELS = 64
+"""Parts of the rod, at least, in each of which what hangs is added up by eight points."""
+
+
+def hung_from_end(hole: Hole, reach: float, weight: Profile) -> float:
+    """∫ q T·k ds over that rod, the weight that hangs from its upper end, as a ratio to that of a uniform rod of L.
+
+    Of sections of one weight each, from how high each rises.
+    """
+    if weight.coefficients.shape[1] == 1:
+        rises = np.diff(heights_of_lying_rod(hole, reach, weight.breaks))
+        return float(weight(weight.breaks[:-1]) @ rises)
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    ends = np.union1d(np.linspace(0.0, 1.0, PANELS + 1), weight.breaks)
+    half = 0.5 * np.diff(ends)
+    s = (ends[:-1, None] + half[:, None] * (nodes + 1.0)).ravel()
+    climb = hole.frame(places_of_lying_rod(hole, reach, s))[:, 2, 2]
+    return float(half @ ((weight(s) * climb).reshape(half.size, -1) @ weights))

@@ -13,7 +13,7 @@ import numpy as np
 from rodwell.problem.checks import check
 from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS
 from rodwell.problem.hole import Hole
-from rodwell.problem.lying import heights_of_lying_rod
+from rodwell.problem.lying import hung_from_end
 from rodwell.problem.points import Rows
 from rodwell.problem.profile import Ratio
 from rodwell.problem.refusals import Refusals
@@ -66,7 +66,7 @@ class Problem(Refusals):
         steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
         computed of rods that stay on the wall is refused. So does it where it begins to float: a section of negative
         weight ratio, beside others of positive ones, lies on the upper side; the ends stay at the bottom. In a curved
-        hole each section has one stiffness, weight and torsion, and all have one clearance. None given: a uniform rod.
+        hole all have one clearance. None given: a uniform rod.
     build, walk
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
         turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the
@@ -189,9 +189,8 @@ class Problem(Refusals):
             return self.axial_weight * self.rod.whole_weight if self.sections else self.axial_weight
         if self.axial_weight == 0.0 and not self.axis and self.rod.symmetric:
             return 0.0  # a level arc is alike from both ends
-        reach, breaks = -self.clearance if self.on_top else self.clearance, self.rod.breaks
-        rises = np.diff(heights_of_lying_rod(self.hole, reach, breaks))
-        return self.weight * float(self.rod.weight(breaks[:-1]) @ rises)
+        reach = -self.clearance if self.on_top else self.clearance
+        return self.weight * hung_from_end(self.hole, reach, self.rod.weight)
 
     @property
     def axial_weight(self) -> float:

@@ -167,6 +167,12 @@ class Rod:
         before, after = self.stiffness_sides
         return np.asarray(self.breaks[1:-1][after != before])
 
+    @cached_property
+    def stiffness_breaks(self) -> BoolArray:
+        """At which ends of sections within the rod the bending stiffness has a step or a kink, (n − 1,)."""
+        sides = self.stiffness_sides, self.stiffness_rate_sides
+        return np.asarray(np.any([below != above for below, above in sides], axis=0), dtype=bool)
+
     @property
     def stepped(self) -> bool:
         """Whether the bending stiffness has a step: a buckled rod stays on the wall there only if its slope is held."""

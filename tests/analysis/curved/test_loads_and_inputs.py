@@ -21,7 +21,8 @@ from rodwell import (
 from rodwell.analysis.curves.critical import _half_in_arc, _LoadsOverRange
 from rodwell.analysis.curves.points import CurveStart, PlanePoint
 from rodwell.analysis.curves.zeros import Touching
-from rodwell.analysis.loads.sensitivity import of_critical_load, of_lift_off
+from rodwell.analysis.loads.ends import of_lift_off
+from rodwell.analysis.loads.sensitivity import of_critical_load
 from rodwell.answers.words.shown_loads import at_bottom
 
 INCLINED = Problem(15.0, 70.0, clearance=0.02, build=0.2, ends="pinned-clamped")

@@ -18,6 +18,7 @@ from rodwell.problem.hole import Hole
 from rodwell.problem.lying import lying_rod_beside, places_of_lying_rod
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
+from rodwell.problem.sections import PLAIN
 from rodwell.quantities.arrays import FloatArray
 
 PIECES = 64
@@ -65,7 +66,8 @@ class HoleAlong:
     breaks
         Ends of the pieces, rising from 0 to 1, (n + 1,).
     rows
-        What :data:`rodwell.physics.on_wall.curved.GIVEN` names of each piece, (n, 45).
+        What :data:`rodwell.physics.on_wall.curved.GIVEN` names of each piece, (n, 45); of a rod that tapers what
+        ``GIVEN_OF_TAPERS`` there does, (n, 52).
     """
 
     breaks: FloatArray
@@ -77,10 +79,16 @@ class HoleAlong:
 
 
 def hole_along(rod: Rod, breaks: FloatArray, functions: Along) -> HoleAlong:
-    """Tabulate k₁, k₂, g₁, g₂, A, C as functions of s (6, m), or the first of these, on pieces; each in one section."""
+    """Tabulate k₁, k₂, g₁, g₂, A, C as functions of s (6, m), or the first of these, on pieces; each in one section.
+
+    Of a rod that tapers the stiffness stands behind them.
+    """
     half, centre = 0.5 * np.diff(breaks), 0.5 * (breaks[1:] + breaks[:-1])
     nodes = np.cos(np.pi * (np.arange(TERMS) + 0.5) / TERMS)
-    values = functions((centre[:, None] + half[:, None] * nodes).ravel()).reshape(-1, TERMS)
+    places = (centre[:, None] + half[:, None] * nodes).ravel()
+    values = functions(places).reshape(-1, TERMS)
+    if rod.tapered:
+        values = np.concatenate([values, rod.stiffness(places).reshape(-1, TERMS)])
     coefficients = np.linalg.solve(np.vander(nodes, increasing=True), values.T).T
     by_piece = coefficients.reshape(-1, half.size, TERMS).transpose(1, 0, 2).reshape(half.size, -1)
     about = np.stack([rod.stiffness(centre), centre, 1.0 / half], axis=1)
@@ -184,34 +192,51 @@ def height_of_rod(problem: Problem, places: FloatArray, angle: FloatArray) -> Fl
 
 @lru_cache(maxsize=64)
 def along_rod(problem: Problem) -> HoleAlong:
-    """The hole along the undeformed rod of a problem.
+    """The hole along the undeformed rod of a problem."""
+    return along_other_rod(problem, problem.rod)
+
+
+@lru_cache(maxsize=64)
+def along_uniform_rod(problem: Problem) -> HoleAlong:
+    """The same of a uniform rod in its place, on the same pieces."""
+    return along_other_rod(problem, Rod(PLAIN))
+
+
+def along_other_rod(problem: Problem, rod: Rod) -> HoleAlong:
+    """The same with another rod in its place, whose sections end where sections of the problem's do.
 
     A(s) = ∫ₛ¹ q T·k ds, of a uniform rod by how much higher the loaded end lies than the rod at s. The rod has the
     curvature κᵣ = k₁/(1 + Δk₁): what moves on bends with it, which gives C(s) = −∫ₛ¹ b κᵣκᵣ′ ds.
     """
-    rod, rise = problem.rod, hung(problem, pieces_of(problem))
+    rise = hung(problem, rod, pieces_of(problem))
 
     def bending(k1: FloatArray) -> FloatArray:
         return np.asarray(0.5 * (k1 / (1.0 + problem.clearance * k1)) ** 2)
 
+    def softening(s: FloatArray) -> FloatArray:
+        return rod.stiffness.derivative(s) * bending(hole_at(problem, undeformed_place(problem, s))[0][0])
+
     ends = bending(hole_at(problem, undeformed_place(problem, rod.breaks[1:]))[0][0])
-    stiffness = rod.stiffness(rod.breaks[:-1])  # of each section; C by parts: b κᵣ²/2, and what its steps leave
-    left = np.cumsum(np.append(np.diff(stiffness) * ends[:-1], -stiffness[-1] * ends[-1])[::-1])[::-1]
+    below, above = rod.stiffness.sides  # C by parts: b κᵣ²/2, what steps of b leave of it, and what b′ does
+    left = np.append((above - below) * ends[:-1], -rod.stiffness(np.ones(1)) * ends[-1])
+    left = np.cumsum(left[::-1])[::-1]
+    tapered = lifted(pieces_of(problem), softening) if rod.tapered else None
 
     def functions(s: FloatArray) -> FloatArray:
         here, weight = hole_at(problem, undeformed_place(problem, s))[0], rod.weight(s)
         here[2:] *= weight
         driven = rod.stiffness(s) * bending(here[0]) + left[rod.stiffness.piece_of(s)]
+        driven += 0.0 if tapered is None else tapered(s)
         return np.concatenate([here, rise(s)[None], driven[None]])
 
     return hole_along(rod, pieces_of(problem), functions)
 
 
-def hung(problem: Problem, breaks: FloatArray) -> PiecewisePolynomial:
+def hung(problem: Problem, rod: Rod, breaks: FloatArray) -> PiecewisePolynomial:
     """A(s) = ∫ₛ¹ q T·k ds of the undeformed rod, between ``breaks``."""
 
     def climb(s: FloatArray) -> FloatArray:
-        return problem.rod.weight(s) * hole_at(problem, undeformed_place(problem, s))[1]
+        return rod.weight(s) * hole_at(problem, undeformed_place(problem, s))[1]
 
     return lifted(breaks, climb)
 
@@ -265,7 +290,7 @@ def _missed(breaks: FloatArray, problem: Problem) -> float:
         return _hole(problem).curvatures(undeformed_place(problem, s)).T
 
     s = (breaks[:-1, None] + np.diff(breaks)[:, None] * BESIDE_NODES).ravel()
-    rows = hole_along(problem.rod, breaks, curvatures)(s)
+    rows = hole_along(Rod(PLAIN), breaks, curvatures)(s)
     x, coefficients = (s - rows[:, CENTRE]) * rows[:, SCALE], rows[:, FIRST:].reshape(s.size, -1, TERMS)
     pieces = np.polynomial.polynomial.polyval(x, coefficients.T, tensor=False)
     return float(np.max(np.abs(pieces - curvatures(s))))

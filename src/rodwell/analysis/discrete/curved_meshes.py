@@ -83,7 +83,7 @@ def _wavenumber(problem: Problem, loads: tuple[float, float], places: FloatArray
     """√(abs(N)/b) + (p/(bΔ))^¼ with the largest contact p per length between two end forces, at places (m,)."""
     k1, k2, g1, g2 = hole_at(problem, undeformed_place(problem, places))[0]
     stiffness, weight = (one.in_pieces(places, sections) for one in (problem.rod.stiffness, problem.rod.weight))
-    weights = problem.weight * hung(problem, np.unique(places))(places)
+    weights = problem.weight * hung(problem, problem.rod, np.unique(places))(places)
     axial = np.maximum(*(np.abs(load - weights) for load in loads))
     pressed = problem.weight * weight * np.hypot(g1, g2) + np.hypot(k1, k2) * axial
     return np.asarray(np.sqrt(axial / stiffness) + (pressed / (problem.clearance * stiffness)) ** 0.25)

@@ -14,7 +14,7 @@ from rodwell.numerics.equilibria.series import series_path
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
-from rodwell.physics.on_wall.curved import RodInCurvedHole
+from rodwell.physics.on_wall.curved import RodInCurvedHole, TaperedRodInCurvedHole
 from rodwell.physics.on_wall.model import RodOfSections, RodOnCylinder
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
 from rodwell.physics.on_wall.tapered import TERMS, RodOfTapers
@@ -188,7 +188,7 @@ def _autonomous(problem: Problem) -> bool:
 
 def _model(problem: Problem) -> RodOnCylinder | RodOfSections | RodOfTapers | RodInCurvedHole:
     if problem.hole is not None:
-        return RodInCurvedHole()
+        return TaperedRodInCurvedHole() if problem.tapered else RodInCurvedHole()
     if problem.tapered:
         return RodOfTapers()
     return RodOfSections() if problem.sections else RodOnCylinder()
@@ -210,7 +210,7 @@ def given_along(problem: Problem) -> Given | None:
     """What kernels are given along s: of sections, b, q and d of :mod:`rodwell.physics.on_wall.sections`, (m, 3).
 
     Of sections that taper, what :mod:`rodwell.physics.on_wall.tapered` names, (m, 17); of a curved hole, what
-    :mod:`rodwell.physics.on_wall.curved` does, (m, 45).
+    :mod:`rodwell.physics.on_wall.curved` does, (m, 45), or (m, 52) where sections taper.
     """
     if problem.hole is not None:
         return along_rod(problem)

@@ -9,7 +9,8 @@ import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.starts import at_state
-from rodwell.analysis.discrete.family import IN_CURVED_HOLE, given_along, given_in_kernels, path
+from rodwell.analysis.discrete.family import IN_CURVED_HOLE, given_in_kernels, in_other_hole
+from rodwell.analysis.discrete.moved_sections import moved_section
 from rodwell.analysis.straight.lying_slopes import beside as changed
 from rodwell.analysis.straight.lying_slopes import step_in
 from rodwell.numerics.equilibria.differences import central_slope
@@ -17,9 +18,9 @@ from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines import banded
+from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
 from rodwell.problem.sections import COLUMNS
-from rodwell.problem.varying import FORCE as END_FORCE
 from rodwell.quantities.arrays import FloatArray
 
 STEPS = {"force": 1e-3, "weight": 1e-4, "alpha": 1e-3, "clearance": 1e-4, "twist": 1e-4}
@@ -67,8 +68,17 @@ def _pressure(family: Family, state: State, places: FloatArray, more: FloatArray
     return np.asarray(family.model.observed(places, u, given, family.parameters(state.lam + further)))
 
 
+Slope = Callable[[Callable[[float], FloatArray], float], FloatArray]
+"""A derivative at 0 by differences with a step."""
+
+
 def _moved_rates(
-    solution: Solution, places: tuple[float, ...], beside: Callable[[Family, float], Family], step: float, span: float
+    solution: Solution,
+    places: tuple[float, ...],
+    beside: Callable[[Family, float], Family],
+    step: float,
+    span: float,
+    slope: Slope = central_slope,
 ) -> Rates:
     """dp/dq along equilibria at a constant load: states move along δc = −H⁻¹ ∂g/∂q.
 
@@ -76,16 +86,29 @@ def _moved_rates(
     """
     at = np.array(places)
 
+    def direction(family: Family, state: State) -> FloatArray:
+        return _moved(family, state, slope(lambda x: beside(family, x).assemble(state.c, state.lam)[1], span))
+
+    directions = {state.c.size: direction(family, state) for family, state in solution.levels}
+
     def rate(family: Family, state: State, h: float) -> FloatArray:
-        factors = family.held.free_part(family.assemble(state.c, state.lam)[2])
-        banded.factorise(factors)
-        slope = central_slope(lambda x: beside(family, x).assemble(state.c, state.lam)[1], span)
-        moved = -family.held.gather(slope)
-        banded.solve(factors, moved)
-        direction = family.held.spread(moved)
-        return central_slope(lambda x: _pressure(beside(family, x), state, at, x * direction, 0.0), h)
+        moving = directions[state.c.size]
+        return central_slope(lambda x: _pressure(beside(family, x), state, at, x * moving, 0.0), h)
 
     return _with_errors(rate, solution.levels, step)
+
+
+def _moved(family: Family, state: State, gradient: FloatArray) -> FloatArray:
+    """How a state moves (n,) as its gradient would become that, to first order: by −H⁻¹ of it."""
+    factors = family.held.free_part(family.assemble(state.c, state.lam)[2])
+    banded.factorise(factors)
+    moved = -family.held.gather(gradient)
+    banded.solve(factors, moved)
+    return family.held.spread(moved)
+
+
+def _linear_slope(function: Callable[[float], FloatArray], h: float) -> FloatArray:
+    return np.asarray((function(h) - function(-h)) / (2.0 * h))
 
 
 def _hole_rates(solution: Solution, places: tuple[float, ...], parameter: str) -> Rates:
@@ -93,8 +116,7 @@ def _hole_rates(solution: Solution, places: tuple[float, ...], parameter: str) -
     problem = solution.problem
 
     def beside(family: Family, step: float) -> Family:
-        other = changed(problem, parameter, step)
-        return replace(family, path=path(other, END_FORCE), given=given_along(other))
+        return in_other_hole(family, changed(problem, parameter, step), 0.0)
 
     step = 0.2 * step_in(problem, parameter)
     return _moved_rates(solution, places, beside, step, step)
@@ -116,15 +138,43 @@ def section_pressure_rates(solution: Solution, places: tuple[float, ...], number
     Returned as by :func:`pressure_rates`.
     """
     problem = solution.problem
-    given = problem.sections[number][COLUMNS.index(ratio)]
-    size = 1.0 if isinstance(given, tuple) else given or 1.0
+    size = ratio_size(problem, number, ratio)
+
+    moved = None if problem.hole is None else moved_section(problem, number, ratio)
 
     def beside(family: Family, step: float) -> Family:
-        sections = list(problem.sections)
-        length, stiffness, weight, clearance, twisting = sections[number]
-        moved = tuple(one * (1.0 + step) for one in given) if isinstance(given, tuple) else given + step
-        pair = (moved, weight) if ratio == "stiffness" else (stiffness, moved)
-        sections[number] = (length, *pair, clearance, twisting)
-        return replace(family, given=given_in_kernels(Rod(tuple(sections))))  # not checked: a weight may be below zero
+        given = given_in_kernels(_other_rod(problem, number, ratio, step)) if moved is None else moved(step)
+        return replace(family, given=given)
 
-    return _moved_rates(solution, places, beside, SECTION_STEP * size, GRADIENT_STEP * size)
+    return _moved_rates(solution, places, beside, SECTION_STEP * size, GRADIENT_STEP * size, _linear_slope)
+
+
+def ratio_size(problem: Problem, number: int, ratio: str) -> float:
+    """The size in which a change of a ratio of section ``number`` (from 0) is measured; of a taper, by a factor."""
+    given = problem.sections[number][COLUMNS.index(ratio)]
+    return 1.0 if isinstance(given, tuple) else given or 1.0
+
+
+def _other_rod(problem: Problem, number: int, ratio: str, step: float) -> Rod:
+    """The string with a ratio of section ``number`` (from 0) moved by a step, of a taper by a factor 1 + step.
+
+    It is not checked: a weight may be below zero.
+    """
+    sections = list(problem.sections)
+    length, stiffness, weight, clearance, twisting = sections[number]
+    given = stiffness if ratio == "stiffness" else weight
+    moved = tuple(one * (1.0 + step) for one in given) if isinstance(given, tuple) else given + step
+    pair = (moved, weight) if ratio == "stiffness" else (stiffness, moved)
+    sections[number] = (length, *pair, clearance, twisting)
+    return Rod(tuple(sections))
+
+
+def pressure_elsewhere(solution: Solution, places: tuple[float, ...], problem: Problem) -> FloatArray:
+    """Pressure (m,) at places in the hole of another problem nearby at the same load, to first order in what differs.
+
+    The state moves by −H⁻¹ of the gradient that it has in that hole.
+    """
+    family, state = solution.levels[1]
+    other = in_other_hole(family, problem, 0.0)
+    moved = _moved(family, state, other.assemble(state.c, state.lam)[1])
+    return _pressure(other, state, np.array(places), moved, 0.0)

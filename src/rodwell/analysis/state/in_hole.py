@@ -139,18 +139,35 @@ class InHole:
         steps = self.problem.rod.breaks[1:-1]
         sides = np.nextafter(steps, 0.0), steps
         shapes, given = ([take(s) for s in sides] for take in (lambda s: self.shape(s, 4), self.given))
-        return step_loads(steps, shapes, given, self.parameters)
+        return step_loads(steps, shapes, given, self.problem.rod.stiffness_sides, self.parameters)
 
     def _angle(self, y: FloatArray) -> FloatArray:
         """ξ₂ (m,) from the low side."""
         return y / self.clearance + (np.pi if self.problem.on_top else 0.0)
 
     def _energy_along(self, s: FloatArray, omega2: FloatArray, omega3: FloatArray, f1: FloatArray) -> FloatArray:
-        """F₁ + ½b(ω₂² + ω₃²) − w × height, constant in a section: F₁ comes from what drives the rod along the hole."""
+        """F₁ + ½b(ω₂² + ω₃²) − w × height, constant in a section: F₁ comes from what drives the rod along the hole.
+
+        Where sections taper, more by ∫ ½b′(ω₂² + ω₃²) + w′ × height.
+        """
         height = height_of_rod(self.problem, self.place(s), self._angle(self.shape(s, 1)[0]))
         rod, weight = self.problem.rod, self.parameters[AXIAL_WEIGHT]
         bent = 0.5 * rod.stiffness(s) * (omega2**2 + omega3**2)
-        return np.asarray(f1 + bent - weight * rod.weight(s) * height)
+        tapered = self._by_tapers(s) if rod.tapered else 0.0
+        return np.asarray(f1 + bent - weight * rod.weight(s) * height + tapered)
+
+    @cached_property
+    def _by_tapers(self) -> PiecewisePolynomial:
+        """What tapers add to that, on the mesh."""
+        rod, weight = self.problem.rod, self.parameters[AXIAL_WEIGHT]
+
+        def rate(s: FloatArray) -> FloatArray:
+            height = height_of_rod(self.problem, self.place(s), self._angle(self.shape(s, 1)[0]))
+            _, omega2, omega3, *_ = strand(s, self.shape(s, 4), self.given(s), self.parameters)
+            bent = 0.5 * rod.stiffness.derivative(s) * (omega2**2 + omega3**2)
+            return np.asarray(-(bent + weight * rod.weight.derivative(s) * height))
+
+        return lifted(self.state.space.breaks, rate)
 
     @cached_property
     def _energy_at_ends(self) -> FloatArray:

@@ -162,8 +162,7 @@ def step_loads(solution: Equilibrium) -> tuple[StepLoad, ...]:
     if not problem.sections:
         return ()
     coarse, fine = (steps_of(problem, family, state) for family, state in solution.levels)
-    sides = problem.rod.stiffness_sides, problem.rod.stiffness_rate_sides
-    bent = np.any([below != above for below, above in sides], axis=0)
+    bent = problem.rod.stiffness_breaks
     return tuple(
         StepLoad(float(s), *(compared(float(old[k]), float(new[k])) for old, new in zip(coarse, fine, strict=True)))
         for k, s in enumerate(problem.rod.breaks[1:-1])
@@ -174,13 +173,14 @@ def step_loads(solution: Equilibrium) -> tuple[StepLoad, ...]:
 def lying_step_loads(problem: Problem) -> tuple[StepLoad, ...]:
     """What the wall exerts at steps of a string that lies along a curved hole, under any end force.
 
-    The hole bends every section alike, by moments that differ: couples −[b]κᵣ, whatever the end force is.
+    The hole bends every section alike, by moments that differ: couples −[b]κᵣ, and at kinks of the stiffness forces
+    [b′]κᵣ, whatever the end force is.
     """
     couple, radial = lying_steps(problem, 0.0)
     return tuple(
         StepLoad(float(s), *(Value(float(one[k]), ROUND_OFF * abs(float(one[k]))) for one in (couple, radial)))
         for k, s in enumerate(problem.rod.breaks[1:-1])
-        if couple[k] != 0.0
+        if problem.rod.stiffness_breaks[k]
     )
 
 

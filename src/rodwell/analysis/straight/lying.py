@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.discrete.curved import along_rod, undeformed_place
+from rodwell.analysis.discrete.curved import HoleAlong, along_rod, undeformed_place
 from rodwell.analysis.discrete.family import parameters
 from rodwell.analysis.straight.scale import load_scale
 from rodwell.errors import InputError
@@ -58,9 +58,12 @@ def refuse_spatial(problem: Problem) -> None:
         )
 
 
-def lying_contact(problem: Problem, force: float, s: FloatArray) -> FloatArray:
-    """Force per length (m,) by which the wall presses the rod at ``s`` (m,), in B/L³; negative: it would pull."""
-    rows = along_rod(problem)(s).T
+def lying_contact(problem: Problem, force: float, s: FloatArray, along: HoleAlong | None = None) -> FloatArray:
+    """Force per length (m,) by which the wall presses the rod at ``s`` (m,), in B/L³; negative: it would pull.
+
+    In a hole that is given ``along`` the rod in place of the problem's, if there is one.
+    """
+    rows = (along_rod(problem) if along is None else along)(s).T
     still = np.zeros((4, s.size))
     p = parameters(problem, force)
     return np.asarray(-p[SIDE] * strand(s, still, rows, p)[-1])
@@ -71,7 +74,7 @@ def lying_steps(problem: Problem, force: float) -> tuple[FloatArray, FloatArray]
     steps, rows = problem.rod.breaks[1:-1], along_rod(problem)
     still = np.zeros((4, steps.size))
     sides = rows(np.nextafter(steps, 0.0)).T, rows(steps).T
-    return step_loads(steps, (still, still), sides, parameters(problem, force))
+    return step_loads(steps, (still, still), sides, problem.rod.stiffness_sides, parameters(problem, force))
 
 
 def off_at_steps(problem: Problem, force: float) -> float | None:

@@ -21,7 +21,7 @@ from rodwell.errors import NotConvergedError
 from rodwell.numerics.equilibria import eigen
 from rodwell.numerics.splines.banded import factorise
 from rodwell.numerics.splines.spaces import SplineSpace
-from rodwell.physics.on_wall.curved import RodInCurvedHole
+from rodwell.physics.on_wall.curved import model_of
 from rodwell.physics.on_wall.parameters import COUNT
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -56,13 +56,15 @@ class Found:
 
 def variation_factors(problem: Problem, space: SplineSpace) -> tuple[FloatArray, FloatArray]:
     """Hessian of the density at y = 0, (3, 3, m), without an end force, and by it."""
-    rows, still = along_rod(problem)(space.points).T, np.zeros((3, space.points.size))
-    out = []
-    for force in (0.0, 1.0):
-        p, rates = parameters(problem, force), np.zeros(COUNT)
-        hessian = RodInCurvedHole.density(space.points, still, rows, p, rates)[-1]
-        out.append(np.array([[np.broadcast_to(x, space.points.shape) for x in row] for row in hessian], dtype=float))
-    return out[0], out[1] - out[0]
+    rows = along_rod(problem)(space.points)
+    at_rest, pushed = (hessian_at(space.points, rows, parameters(problem, force)) for force in (0.0, 1.0))
+    return at_rest, pushed - at_rest
+
+
+def hessian_at(s: FloatArray, rows: FloatArray, p: FloatArray) -> FloatArray:
+    """Hessian of the density at y = 0 by y, y′, y″, (3, 3, m), at places (m,), in the hole given by ``rows`` there."""
+    hessian = model_of(rows.T).density(s, np.zeros((3, s.size)), rows.T, p, np.zeros(COUNT))[-1]
+    return np.array([[np.broadcast_to(x, s.shape) for x in row] for row in hessian], dtype=float)
 
 
 def _band(space: SplineSpace, factors: FloatArray) -> FloatArray:
@@ -103,10 +105,8 @@ class _Pencil:
 
     def softest(self, force: float, count: int = 1) -> tuple[FloatArray, FloatArray]:
         """Lowest eigenvalues (count,) of K + F G against (1 + |F|)∫v′², rising, and their vectors (count, n)."""
-        band, size = (
-            self.k + force * self.g,
-            1.0 + abs(force),
-        )  # eigenvalues of about 1: changes are judged against that
+        band = self.k + force * self.g
+        size = 1.0 + abs(force)  # eigenvalues of about 1: changes are judged against that
         whole, slope = self.factors[0] + force * self.factors[1], np.zeros_like(self.factors[0])
         slope[1, 1] = size
 

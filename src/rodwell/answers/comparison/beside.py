@@ -64,11 +64,26 @@ class Comparison:
 
 
 @dataclass(frozen=True)
+class SectionLoad:
+    """A formula's load in one section of a string.
+
+    ``value`` is that load in B/L², compression positive, ``force`` the end force of the string at s = 1 in B/L²,
+    tension positive, at which the compression at the formula's place in the section comes to it.
+    """
+
+    section: str
+    value: float
+    force: float
+
+
+@dataclass(frozen=True)
 class FormulaRow:
     """A formula of a load: its value in B/L², compression positive, beside the exact loads at all three places.
 
     ``against`` names the exact load that its kind asks for; ``reasons`` why the rod is outside the formula's validity
-    (none: inside); ``missing`` the quantities that were not given, without which there is no value.
+    (none: inside); ``missing`` the quantities that were not given, without which there is no value. Of a string
+    ``section`` names the one whose compression comes to the formula's load first, to which all of that belongs, and
+    ``by_section`` has its load in each.
     """
 
     formula: Formula
@@ -77,6 +92,13 @@ class FormulaRow:
     comparisons: tuple[Comparison, ...]
     reasons: tuple[str, ...]
     missing: tuple[str, ...]
+    section: str = ""
+    by_section: tuple[SectionLoad, ...] = ()
+
+    @property
+    def at(self) -> str:
+        """Where its force is meant, in words: "bottom"; of a string "bottom of drill pipe"."""
+        return f"{self.formula.place} of {self.section}" if self.section else str(self.formula.place)
 
     @property
     def valid(self) -> bool:
@@ -136,17 +158,17 @@ def load_rows(
     rod = _known_rod(case, extra or {})
     order = [f for kind in AGAINST for f in FORMULAS.values() if f.kind == kind]
     problem = case.problem if isinstance(case, Case) else case
-    return tuple(_row(formula, rod, loads, problem.hole is not None) for formula in order)
+    return tuple(row(formula, rod, loads, problem.hole is not None) for formula in order)
 
 
 def _known_rod(case: Case | Problem, extra: Mapping[str, float]) -> FormulaInputs:
     """The rod with all that the case and ``extra`` tell of it."""
     problem = case.problem if isinstance(case, Case) else case
-    known = _bends(problem, extra) | _section(case) | _extra(extra)
+    known = bends_of(problem, extra) | _section(case) | extra_of(extra)
     return rod_of(problem, tuple(known.items()))
 
 
-def _bends(problem: Problem, extra: Mapping[str, float]) -> dict[str, float]:
+def bends_of(problem: Problem, extra: Mapping[str, float]) -> dict[str, float]:
     """Build and turn in 1/L of the hole at mid-length, 0 of a straight one."""
     if problem.hole is None:
         return {"build": 0.0, "turn": 0.0}
@@ -163,7 +185,8 @@ def rod_of(problem: Problem, more: tuple[tuple[str, float], ...] = ()) -> Formul
     return FormulaInputs(1.0, problem.weight, alpha, problem.clearance, 1.0, problem.ends, problem.pressed, more)
 
 
-def _extra(extra: Mapping[str, float]) -> dict[str, float]:
+def extra_of(extra: Mapping[str, float]) -> dict[str, float]:
+    """What was given besides, checked."""
     for name in extra:
         if name not in EXTRA:
             raise InputError("extra", name, f"is not a quantity that can be given; these can: {', '.join(EXTRA)}")
@@ -184,7 +207,7 @@ def _section(case: Case | Problem) -> dict[str, float]:
     return out
 
 
-def _value(formula: Formula, rod: FormulaInputs, missing: tuple[str, ...]) -> float | None:
+def value_of(formula: Formula, rod: FormulaInputs, missing: tuple[str, ...]) -> float | None:
     """Value, or None where the formula has none."""
     if missing:
         return None
@@ -195,9 +218,10 @@ def _value(formula: Formula, rod: FormulaInputs, missing: tuple[str, ...]) -> fl
     return value if math.isfinite(value) else None
 
 
-def _row(formula: Formula, rod: FormulaInputs, loads: tuple[ExactLoad, ...], curved: bool) -> FormulaRow:
+def row(formula: Formula, rod: FormulaInputs, loads: tuple[ExactLoad, ...], curved: bool) -> FormulaRow:
+    """A formula of a load for a rod beside exact loads at its three places."""
     missing, reasons = formula.missing(rod), list(formula.violations(rod))
-    value = _value(formula, rod, missing)
+    value = value_of(formula, rod, missing)
     takes = bool({"build", "turn"} & set(formula.takes))
     bent = not curved and takes and any(dict(rod.more).get(name) for name in ("build", "turn"))
     if bent:
@@ -236,4 +260,4 @@ def _other(formula: Formula, rod: FormulaInputs, load: ExactLoad, problem: Probl
     error = None
     if not missing and formula.kind == "helix" and 0.0 < force * rod.r**2 < LARGEST_HELIX:
         error = small_angle_error(formula.key, 1.0, rod.r, force)
-    return Other(formula, _value(formula, full, missing), error, tuple(formula.violations(full)), missing)
+    return Other(formula, value_of(formula, full, missing), error, tuple(formula.violations(full)), missing)

@@ -47,6 +47,8 @@ class ExactLoad:
         End force F at s = 1 in B/L², **tension positive**, and its error estimate.
     axial_weight
         γ cos α, by which the two ends differ.
+    above_middle
+        How much of it is above the middle; None: half of it.
     """
 
     name: str
@@ -54,6 +56,7 @@ class ExactLoad:
     force: float
     error: float
     axial_weight: float
+    above_middle: float | None = None
 
     def meets(self, rtol: float) -> bool:
         """Whether the load is known to a tolerance, judged like that of a branch."""
@@ -61,6 +64,8 @@ class ExactLoad:
 
     def at(self, place: Place) -> float:
         """Compression −N(s) at a place in B/L², **compression positive**; N(s) = F + γ cos α (s − 1)."""
+        if place == "middle" and self.above_middle is not None:
+            return -self.force + self.above_middle
         return -self.force + self.axial_weight * (1.0 - WHERE[place])
 
 
@@ -132,6 +137,8 @@ def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[ExactLoad, 
     holds = problem.ends[0] in HOLD_ANGLE and problem.ends[1] in HOLD_ANGLE
     if problem.hole is not None:
         notes.append("load of equal energy: coils are computed in straight holes only")
+    elif problem.sections:
+        notes.append("load of equal energy: of a uniform rod only")
     elif problem.alpha != 90.0 or not holds or not problem.pressed:
         notes.append("load of equal energy: only for a horizontal rod pressed to the wall whose ends hold the angle")
     else:

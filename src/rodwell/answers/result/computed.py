@@ -14,8 +14,10 @@ from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.discrete import first_run
+from rodwell.analysis.loads.derivatives import Sensitivity
+from rodwell.analysis.loads.ends import of_leaving, of_lift_off
 from rodwell.analysis.loads.lying_rod import LyingRod
-from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_first_met, of_lift_off
+from rodwell.analysis.loads.sensitivity import of_critical_load, of_first_met, of_lying_rod
 from rodwell.analysis.state.certificate import Certificate
 from rodwell.analysis.state.own_places import lift_off_with_own_places
 from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
@@ -205,12 +207,13 @@ class Computed:
     def sensitivities(self) -> tuple[Sensitivity, ...]:
         """How the first critical load and the lift-off load change with the inputs.
 
-        Of curved holes those of constant curvature in a vertical plane, in which the rod does not leave the wall before
-        it buckles: along a survey or a centre line an input moves the whole hole.
+        Of a rod that leaves the wall of a drop before it buckles, how that load does; out of the vertical plane those
+        at which the rod, as it lies, ceases to, and at which its buckled state lifts off.
         """
-        problem = self.case.problem
-        if problem.hole is not None and (problem.axis or not problem.hole.planar or self.left_before is not None):
-            return ()
+        if self.lying is not None:
+            return of_lying_rod(self.lying)
+        if self.left_before is not None:
+            return (of_leaving(self.case.problem, self.left_before),)
         out = [of_critical_load(self.critical[0])]
         if isinstance(self.first_met, SpatialMode):
             out.append(of_first_met(self.first_met))

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rodwell.analysis.loads.sensitivity import Sensitivity
+from rodwell.analysis.loads.derivatives import Sensitivity
 from rodwell.case.uncertain import Moved, UncertainInput
 from rodwell.quantities.scales import Scales
 
@@ -45,11 +45,14 @@ def spread_of_load(load: Sensitivity, scales: Scales | None, inputs: tuple[Uncer
 
 
 def _linear(load: Sensitivity, scales: Scales | None, moved: Moved) -> float:
-    """The load at moved inputs, to first order in γ, α, Δ/L and T₁; in N with ``scales``."""
+    """The load at moved inputs, to first order in γ, α, Δ/L, T₁ and the hole; in N with ``scales``."""
     problem, new = moved
     force = load.force
-    for name, (slope, _) in load.derivatives.items():
-        force += slope * (getattr(problem, name) - getattr(load.problem, name))
+    if load.elsewhere is not None and problem.axis != load.problem.axis:
+        force = load.elsewhere(problem)
+    else:
+        for name, (slope, _) in load.derivatives.items():
+            force += slope * (getattr(problem, name) - getattr(load.problem, name))
     if scales is None or new is None:
         return force
     unit = scales.factor("force")

@@ -73,6 +73,4 @@ def left_out(answer: Answer) -> str:
         parts.append("derivatives by the inputs")
         if answer.case.uncertain:
             parts[-1] += ", so that the uncertainties given are not carried through"
-    elif answer.case.problem.sections:
-        parts.append("derivatives by the data of each section")
     return f"Not told of a curved hole: {', '.join(parts[:-1])}, and {parts[-1]}."

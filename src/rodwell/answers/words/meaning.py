@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from rodwell.analysis.branch.special import CRITICAL, LIFT_OFF
+from rodwell.analysis.loads.ends import BREAKS_SYMMETRY
 from rodwell.analysis.state.extent import FADED, buckled_to
 from rodwell.analysis.straight.critical import Mode
 from rodwell.answers.result.answer import Answer
@@ -200,11 +201,12 @@ def _inputs(computed: Computed) -> str:
         return ""
     e = load.elasticities()
     names = {"clearance": "clearance", "weight_per_length": "weight", "stiffness": "stiffness", "length": "length",
-             "build": "curvature of the hole"}  # fmt: skip
+             "build": "curvature of the hole", "walk": "turn of the hole"}  # fmt: skip
     parts = ", ".join(f"{names[name]} {_signed(e[name])}" for name in names if name in e)
     where = forces_of(computed.case).at_end
-    text = f"One percent more of an input changes the {load.name}{where} by: {parts}; one degree more from the "
-    text += f"vertical by {_signed(e['alpha'])}."
+    text = f"One percent more of an input changes the {load.name}{where} by: {parts}"
+    text += f"; one degree more from the vertical by {_signed(e['alpha'])}." if "alpha" in e else "."
+    text += f" Note: {BREAKS_SYMMETRY}." if BREAKS_SYMMETRY in load.note else ""
     if spread is not None:
         scales = computed.case.scales
         size = f"{plain(spread.total, 2)} B/L²" if scales is None else scales.system.text(spread.total, "force", 2)

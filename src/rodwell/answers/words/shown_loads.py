@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
-from rodwell.analysis.loads.sensitivity import Sensitivity
+from rodwell.analysis.loads.derivatives import Sensitivity
 from rodwell.analysis.straight.lying_slopes import beside, inputs_of, step_in
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.spread import Spread, spread_of_load
@@ -28,11 +30,17 @@ def at_bottom(load: Sensitivity) -> Sensitivity:
     problem, alpha = load.problem, math.radians(load.problem.alpha)
     if problem.hole is not None:
         slopes = {name: _hung_slope(problem, name) for name in inputs_of(problem)}
-        return _less(load, slopes)
+        there = load.elsewhere
+        moved = None if there is None else partial(_at_bottom_elsewhere, there)
+        return replace(_less(load, slopes), elsewhere=moved)
     whole = problem.rod.whole_weight if problem.sections else 1.0
     whole *= -1.0 if problem.floats else 1.0
     slopes = {"weight": -whole * math.cos(alpha), "alpha": whole * problem.weight * math.sin(alpha) * math.radians(1.0)}
     return _less(load, slopes)
+
+
+def _at_bottom_elsewhere(at_top: Callable[[Problem], float], problem: Problem) -> float:
+    return at_top(problem) - problem.hung_weight
 
 
 def _less(load: Sensitivity, slopes: dict[str, float]) -> Sensitivity:

@@ -76,6 +76,18 @@ def steps_note(
 def _bent_note(lifting: list[StepLoad], case: Case | None, off: float | None) -> str:
     """The same of a string that the hole bends wherever it is stiff."""
     scales = None if case is None else case.scales
+    kinks = [step for step in lifting if step.couple.value == 0.0]
+    lifting = [step for step in lifting if step.couple.value != 0.0]
+    pulled = ""
+    if kinks:
+        largest = min((step.force for step in kinks), key=lambda force: force.value)
+        pulled = (
+            f"The hole bends the rod, and where its bending stiffness has a kink ({_places(kinks, case)}) the wall "
+            f"would have to pull it before it buckles, by {size_text(scales, largest.times(-1.0), 'force', 'B/L²')} at "
+            "most. A wall only pushes: the loads told are those of a rod that is held there."
+        )
+    if not lifting:
+        return pulled
     largest = max((step.couple for step in lifting), key=lambda couple: abs(couple.value))
     couple = size_text(scales, Value(abs(largest.value), largest.error), "moment", "B/L")
     far = "a stretch"
@@ -87,6 +99,7 @@ def _bent_note(lifting: list[StepLoad], case: Case | None, off: float | None) ->
         f"({_places(lifting, case)}) the wall would have to hold the rod by a couple, of up to {couple}, and a wall "
         f"only pushes: unless something holds the rod's slope across the wall there, the rod is off the wall beside "
         f"the step, over {far}, before it buckles. The loads told are those of a rod that is held there."
+        + (f" {pulled}" if pulled else "")
     )
 
 

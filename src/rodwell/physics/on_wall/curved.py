@@ -8,11 +8,20 @@ N₂, as ratios to w, at the place S that the cross-section has on the hole's ax
 They are written for a rod of stiffness 1. A piece of a string lies in one section: with its stiffness b the energy is
 b times that of a rod of stiffness 1 under 1/b of the loads, N among them, as in a straight hole
 (:mod:`rodwell.physics.on_wall.sections`). Of another weight q(s) the hole is given q g₁, q g₂ and A = ∫ₛ¹ q T·k ds.
+
+Where b varies along a section the energy at s is that of a section with b(s): no derivative of b enters. The balance of
+moments and of forces has more (unit vectors as in :mod:`rodwell.physics.on_wall.tapered`):
+
+    F₂ less b′ω₃,   F₃ more b′ω₂,   F₁ more b′ω₂ tan η,   p more 2b′(F₂ + T₁ω₂)/b + b′ω₂ω₃ tan η − b″ω₃,
+
+the last with F₂ as of a section of one stiffness. In a straight hole that F₂ is −ω₂(3bω₁ + T₁).
 """
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from rodwell.physics.on_wall._curved_density import curved_density, curved_strand
 from rodwell.physics.on_wall.model import RodOnCylinder
@@ -20,6 +29,7 @@ from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, S
 from rodwell.physics.on_wall.sections import of_section, times
 
 FUNCTIONS = ("k1", "k2", "g1", "g2", "lift", "offset")
+LIFT, OFFSET = (FUNCTIONS.index(name) for name in ("lift", "offset"))
 DEGREE = 6
 TERMS = DEGREE + 1
 
@@ -27,6 +37,12 @@ GIVEN = ("stiffness", "centre", "scale", *(f"{name}_{j}" for name in FUNCTIONS f
 """Of a piece: B(s)/B, where x = (s − centre)·scale is zero and its scale, coefficients of each function in xʲ."""
 
 STIFFNESS, CENTRE, SCALE, FIRST = range(4)
+
+BENDING = len(FUNCTIONS)
+"""Which function of s the stiffness is where it varies."""
+
+GIVEN_OF_TAPERS = (*GIVEN, *(f"stiffness_{j}" for j in range(TERMS)))
+"""Of a piece of a string that tapers somewhere: B(s)/B as a polynomial, too."""
 
 
 class Here(NamedTuple):
@@ -77,8 +93,33 @@ def strand(s: Any, u: Any, given: Any, parameters: Any) -> Any:
     """ω₁, ω₂, ω₃, F₁, F₂, F₃ and the contact pressure p, from y and three derivatives.
 
     Components along t₁, d₁, u₁ as in :mod:`rodwell.physics.on_wall.strand`; p < 0 presses a rod inside on the wall.
+    Arrays of either kind may be ``given``: :data:`GIVEN`, or :data:`GIVEN_OF_TAPERS`.
     """
-    here, stiffness = here_at(s, given), given[STIFFNESS]
+    of_one = _strand_of_tapers if len(given) > len(GIVEN) else _strand_of_sections
+    return of_one(s, u, given, parameters)
+
+
+def _tapering(s: Any, given: Any) -> Any:
+    return _horner(given, BENDING, (s - given[CENTRE]) * given[SCALE])
+
+
+def _strand_of_sections(s: Any, u: Any, given: Any, parameters: Any) -> Any:
+    return _strand(s, u, given, parameters, given[STIFFNESS])
+
+
+def _strand_of_tapers(s: Any, u: Any, given: Any, parameters: Any) -> Any:
+    x, scale, stiffness = (s - given[CENTRE]) * given[SCALE], given[SCALE], _tapering(s, given)
+    rate = scale * _derivative(given, BENDING, x, 1)
+    bend = scale * scale * _derivative(given, BENDING, x, 2)
+    omega1, omega2, omega3, f1, f2, f3, p = _strand(s, u, given, parameters, stiffness)
+    tilt = u[1] / np.sqrt((1.0 - u[1]) * (1.0 + u[1]))
+    more = 2.0 * rate * (f2 + parameters[TWIST] * omega2) / stiffness + rate * omega2 * omega3 * tilt - bend * omega3
+    return omega1, omega2, omega3, f1 + rate * omega2 * tilt, f2 - rate * omega3, f3 + rate * omega2, p + more
+
+
+def _strand(s: Any, u: Any, given: Any, parameters: Any, stiffness: Any) -> Any:
+    """The same with a stiffness at s, whose derivatives are left out."""
+    here = here_at(s, given)
     own = _own_loads(stiffness, parameters)
     omega1, omega2, omega3, *forces = curved_strand(
         u[0], u[1], u[2], u[3], _own_hole(stiffness, here.hole), here.rates, own[CLEARANCE], own[TWIST], own[FORCE],
@@ -87,18 +128,17 @@ def strand(s: Any, u: Any, given: Any, parameters: Any) -> Any:
     return omega1, omega2, omega3, *(stiffness * force for force in forces)
 
 
-def step_loads(s: Any, shapes: Any, given: Any, parameters: Any) -> tuple[Any, Any]:
+def step_loads(s: Any, shapes: Any, given: Any, stiffness: Any, parameters: Any) -> tuple[Any, Any]:
     """Couple about u₁ and force along d₁ (towards the axis), (k,) each, of the wall on the rod at k steps of b.
 
-    ``shapes`` and ``given`` are those on the sides towards s = 0 and s = 1. From the balance of moments and of forces:
-    −[b ω₃] and −[F₂], which holds −b ω₃′ and so the rate of the curvature of the hole. In a bend ω₃ is not zero of a
-    rod that lies still.
+    ``shapes``, ``given`` and ``stiffness`` b are those on the sides towards s = 0 and s = 1. From the balance of
+    moments and of forces: −[b] ω₃ and −[F₂], which holds −(b ω₃)′ and so the rate of the curvature of the hole. In a
+    bend ω₃ is not zero of a rod that lies still.
     """
-    below, above = (strand(s, u, rows, parameters) for u, rows in zip(shapes, given, strict=True))
-    (bent_below, f2_below), (bent_above, f2_above) = (
-        (rows[STIFFNESS] * one[2], one[4]) for rows, one in zip(given, (below, above), strict=True)
+    (_, f2_below), (bend, f2_above) = (
+        strand(s, u, rows, parameters)[2:5:2] for u, rows in zip(shapes, given, strict=True)
     )
-    return bent_below - bent_above, f2_below - f2_above
+    return (stiffness[0] - stiffness[1]) * bend, f2_below - f2_above
 
 
 def _own_loads(stiffness: Any, parameters: Any) -> list[Any]:
@@ -110,6 +150,13 @@ def _own_hole(stiffness: Any, hole: Any) -> tuple[Any, ...]:
     """The hole of that rod: C is a force."""
     k1, k2, g1, g2, lift, offset = hole
     return k1, k2, g1, g2, lift, offset / stiffness
+
+
+def _density(s: Any, u: Any, given: Any, parameters: Any, rates: Any, stiffness: Any) -> Any:
+    hole, own, along = (
+        _own_hole(stiffness, hole_at(s, given)), _own_loads(stiffness, parameters), _own_loads(stiffness, rates)
+    )  # fmt: skip
+    return times(stiffness, curved_density(u[0], u[1], u[2], hole, parameters[CLEARANCE], own, along))
 
 
 class RodInCurvedHole(NamedTuple):
@@ -133,13 +180,33 @@ class RodInCurvedHole(NamedTuple):
     @staticmethod
     def density(s: Any, u: Any, given: Any, parameters: Any, rates: Any) -> Any:
         """Energy density and its derivatives at ``s``, where y has the value and derivatives ``u``."""
-        stiffness = given[STIFFNESS]
-        hole, own, along = (
-            _own_hole(stiffness, hole_at(s, given)), _own_loads(stiffness, parameters), _own_loads(stiffness, rates)
-        )  # fmt: skip
-        return times(stiffness, curved_density(u[0], u[1], u[2], hole, parameters[CLEARANCE], own, along))
+        return _density(s, u, given, parameters, rates, given[STIFFNESS])
 
     @staticmethod
     def observed(s: Any, u: Any, given: Any, parameters: Any) -> Any:
         """Return the contact pressure, negative in contact, at ``s``, from ``u`` with the third derivative."""
-        return parameters[SIDE] * strand(s, u, given, parameters)[-1]
+        return parameters[SIDE] * _strand_of_sections(s, u, given, parameters)[-1]
+
+
+class TaperedRodInCurvedHole(RodInCurvedHole):
+    """The same of a string that tapers somewhere."""
+
+    @staticmethod
+    def given() -> tuple[str, ...]:
+        """Names of the coefficients that vary along s, by pieces."""
+        return GIVEN_OF_TAPERS
+
+    @staticmethod
+    def density(s: Any, u: Any, given: Any, parameters: Any, rates: Any) -> Any:
+        """Energy density and its derivatives at ``s``, where y has the value and derivatives ``u``."""
+        return _density(s, u, given, parameters, rates, _tapering(s, given))
+
+    @staticmethod
+    def observed(s: Any, u: Any, given: Any, parameters: Any) -> Any:
+        """Return the contact pressure, negative in contact, at ``s``, from ``u`` with the third derivative."""
+        return parameters[SIDE] * _strand_of_tapers(s, u, given, parameters)[-1]
+
+
+def model_of(given: Any) -> type[RodInCurvedHole]:
+    """The model to which arrays of what is given belong."""
+    return TaperedRodInCurvedHole if len(given) > len(GIVEN) else RodInCurvedHole

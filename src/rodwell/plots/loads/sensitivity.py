@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.loads.sensitivity import Sensitivity
+from rodwell.analysis.loads.derivatives import Sensitivity
 from rodwell.plots.style import BUCKLES, INK, LIFTS_OFF, new_axes, parameters
 from rodwell.quantities.text import signed
 
@@ -18,6 +18,7 @@ INPUTS = {
     "length": "1 % more\nlength L",
     "alpha": "1° more from\nthe vertical",
     "build": "1 % more curvature\nof the hole",
+    "walk": "1 % more turn\nof the hole",
 }
 """What is changed, the other inputs constant, where a load has a change by it."""
 

@@ -69,23 +69,44 @@ def conditions(problem: Problem) -> str:
     """The rod that exact loads belong to, its ends and its hole, in a line."""
     twist = f", T₁ = {plain(problem.twist)} B/L" if problem.twist else ""
     hole = hole_text(problem)
+    by_section = ""
+    if problem.sections:
+        by_section = " Formulas are taken section by section, each with its own data and the force in it; told is the "
+        by_section += "section whose compression comes to the formula's load first."
     return (
         f"γ = {plain(problem.weight)}, α = {plain(problem.alpha)}° from the vertical, "
-        f"Δ/L = {plain(problem.clearance)}{twist}, {ends_text(problem)}. {hole[:1].upper()}{hole[1:]}, no friction."
+        f"Δ/L = {plain(problem.clearance)}{twist}, {ends_text(problem)}. {hole[:1].upper()}{hole[1:]}, no "
+        f"friction.{by_section}"
     )
 
 
 def verdict(audit: Audit) -> str:
     """In a sentence: how many formulas apply to the rod, and which of them are safe."""
     valid = [row for row in audit.rows if row.judgement != NOT_APPLICABLE]
+    beside = f" {_best_known(audit)}" if audit.problem.sections else ""
     if not valid:
-        return f"None of the {len(audit.rows)} formulas of buckling loads applies to this rod."
+        return f"None of the {len(audit.rows)} formulas of buckling loads applies to this rod.{beside}"
     parts = []
     for word in (UNSAFE, SAFE, USELESS):
         names = [row.formula.name for row in valid if row.judgement == word]
         if names:
             parts.append(f"{word}: {', '.join(names)}")
-    return f"{len(valid)} of {len(audit.rows)} formulas of buckling loads apply to this rod; {'; '.join(parts)}."
+    return (
+        f"{len(valid)} of {len(audit.rows)} formulas of buckling loads apply to this rod; {'; '.join(parts)}.{beside}"
+    )
+
+
+def _best_known(audit: Audit) -> str:
+    """Of a string, what the best known formula comes to section by section, and how far it is off."""
+    row = audit.row("dawson_paslay" if audit.problem.hole is None else "he_kyllingstad")
+    main = row.main
+    if row.value is None or main is None or main.percent is None:
+        return ""
+    error = minus(f"{main.percent:+.1f} %")
+    return (
+        f"{row.formula.name}, section by section: {row.section} governs, at {_force(audit, row.value)} of compression "
+        f"at its {row.formula.place}; that is {error} from the exact load, which has {_force(audit, main.exact)} there."
+    )
 
 
 def _statuses(audit: Audit) -> tuple[Status, ...]:
@@ -113,7 +134,9 @@ def _force(audit: Audit, value: float, digits: int = 4) -> str:
 def _loads(audit: Audit) -> ReportSection:
     """Formulas of loads that apply, then those that do not, and why."""
     head = ("Formula", "Gives", "at", "Exact there", "Difference", "It is")
-    rows = tuple(_row(audit, row) for row in audit.rows if row.judgement != NOT_APPLICABLE)
+    string = bool(audit.problem.sections)  # its sections are mostly shorter than formulas ask for: all are shown
+    shown = [row for row in audit.rows if row.judgement != NOT_APPLICABLE or (string and row.value and row.main)]
+    rows = tuple(_row(audit, row) for row in shown)
     blocks: list[Block] = [Grid(head, rows, numeric=(1, 3, 4))] if rows else []
     out = [row for row in audit.rows if row.judgement == NOT_APPLICABLE]
     if out:
@@ -132,7 +155,7 @@ def _row(audit: Audit, row: FormulaRow) -> tuple[str, ...]:
     assert main is not None
     assert row.value is not None
     percent = "–" if main.percent is None else minus(f"{main.percent:+.1f} %")
-    return (row.formula.name, _force(audit, row.value), str(row.formula.place), _force(audit, main.exact), percent,
+    return (row.formula.name, _force(audit, row.value), row.at, _force(audit, main.exact), percent,
             row.judgement)  # fmt: skip
 
 

@@ -22,6 +22,7 @@ from rodwell.report.reports.front import LOGO, front
 from rodwell.report.reports.sections import string_section
 from rodwell.report.reports.strength import strength_sections
 from rodwell.report.reports.texts import (
+    CHANGES,
     certificate,
     conversions,
     derived,
@@ -213,10 +214,9 @@ def _inputs_and_loads(computed: Computed) -> tuple[ReportSection, ...]:
     if not computed.sensitivities:
         return ()
     uncertain = computed.case.uncertain
-    head = ["Load", "clearance Δ", "weight per length", "stiffness B", "length L", "angle α, per degree"]
-    head += ["curvature of the hole"] if computed.case.problem.hole is not None else []
-    head += ["± from the inputs"] if uncertain else []
-    lines = [(row["name"], *row["cells"], *([row["spread"]] if uncertain else [])) for row in sensitivities(computed)]
+    changed, rows = sensitivities(computed)
+    head = ["Load", *(CHANGES[name] for name in changed), *(["± from the inputs"] if uncertain else [])]
+    lines = [(row["name"], *row["cells"], *([row["spread"]] if uncertain else [])) for row in rows]
     note = (
         f"Change of the load{forces_of(computed.case).at_end} in percent for one percent more of an input, the others "
         "constant (elasticity), from exact derivatives."

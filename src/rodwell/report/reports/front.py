@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rodwell.analysis.loads.sensitivity import Sensitivity
+from rodwell.analysis.loads.derivatives import Sensitivity
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import BUCKLED, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.result.spread import Spread
@@ -95,7 +95,10 @@ def _numbers(answer: Answer) -> tuple[Number, ...]:
     first = "Buckles at" if answer.left_before is None else "Leaves the wall at"
     if answer.lying is not None and answer.no_window and answer.left_before is None:
         first = "Lies on the wall, as far as followed, to" if answer.lying.end is None else "Loses its stability at"
-    out = [_load(first, answer, a.window.buckling, spreads.get("critical load of mode 1"))]
+    name = "critical load of mode 1"
+    if answer.lying is not None or answer.left_before is not None:  # the load of the first derivatives
+        name = next(iter(spreads), name)
+    out = [_load(first, answer, a.window.buckling, spreads.get(name))]
     end = a.window.end
     if end is not None and end.load is not None and not answer.no_window:
         rod = answer.case.problem.rod

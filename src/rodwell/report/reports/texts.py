@@ -149,21 +149,33 @@ def certificate(found: Certificate) -> dict[str, Any]:
     }
 
 
-def sensitivities(computed: Computed) -> list[dict[str, Any]]:
-    """Elasticities of the loads, and their uncertainty from the inputs."""
-    out = []
-    for load, spread in shown_sensitivities(computed):
+CHANGES = {
+    "clearance": "clearance Δ",
+    "weight_per_length": "weight per length",
+    "stiffness": "stiffness B",
+    "length": "length L",
+    "alpha": "angle α, per degree",
+    "build": "curvature of the hole",
+    "walk": "turn of the hole",
+}
+"""Inputs by which elasticities are told, in the order of the table."""
+
+
+def sensitivities(computed: Computed) -> tuple[list[str], list[dict[str, Any]]]:
+    """By which inputs elasticities of loads are told; for each load they, and the uncertainty from the inputs."""
+    out, shown = [], shown_sensitivities(computed)
+    known = {name for load, _ in shown if load.force != 0.0 for name in load.elasticities()}
+    names = [name for name in CHANGES if name in known] or list(CHANGES)[:5]
+    for load, spread in shown:
         e = load.elasticities() if load.force != 0.0 else {}
-        names = ["clearance", "weight_per_length", "stiffness", "length", "alpha"]
-        names += ["build"] if computed.case.problem.hole is not None else []
-        cells = [minus(f"{e[name].value:+.2f} %") if e else "" for name in names]
+        cells = [minus(f"{e[name].value:+.2f} %") if name in e else "" for name in names]
         size = ""
         if spread is not None:
             scales = computed.case.scales
             total = f"{plain(spread.total, 2)} B/L²" if scales is None else scales.system.text(spread.total, "force", 2)
             size = f"± {total}"
         out.append({"name": load.name, "cells": cells, "spread": size})
-    return out
+    return names, out
 
 
 _GROUPS = {

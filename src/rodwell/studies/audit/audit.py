@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from rodwell.answers.comparison.beside import AGAINST, FormulaRow, Other, _known_rod, _other, load_rows
+from rodwell.answers.comparison.by_sections import above_middle, string_rows
 from rodwell.answers.comparison.exact_loads import ExactLoad, exact_loads
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
@@ -15,7 +16,6 @@ from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.formulas import FORMULAS, FormulaInputs
 from rodwell.problem.problem import Problem
-from rodwell.problem.sections import refuse_sections
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain as text_of
 from rodwell.quantities.tolerance import RTOL
@@ -54,11 +54,11 @@ class Audit:
     loads, not_found
         Exact loads, and which could not be had with the reason.
     rows
-        Formulas of loads: sinusoidal, then helical.
+        Formulas of loads: sinusoidal, then helical; of a string section by section, each in the one that governs.
     others
-        All other formulas, at the first critical load.
+        All other formulas, at the first critical load; none of a string.
     applied
-        All other formulas at each of the loads that act; none where the case has none.
+        All other formulas at each of the loads that act; none where the case has none, or of a string.
     """
 
     problem: Problem
@@ -108,7 +108,8 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
     Raises
     ------
     InputError
-        If ``extra`` holds an unknown quantity or a value out of range, or the rod is coiled.
+        If ``extra`` holds an unknown quantity or a value out of range, the rod is coiled, or a string has steps of its
+        clearance.
     NotConvergedError
         If the first critical load cannot be computed.
     """
@@ -120,10 +121,7 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
         problem, scales, title = case.problem, case.scales, case.title
         rtol = case.rtol if rtol is None else rtol
     assert isinstance(problem, Problem)
-    refuse_sections(
-        problem.sections,
-        "formulas of practice are those of a uniform rod: audit the section that buckles as a rod of its own",
-    )
+    problem.refuse_bridges("formulas of practice, and the exact loads beside them,")
     if problem.hung_weight < 0.0:
         reason = (
             "makes compression grow towards s = 1, and formulas of practice count from the end that weight loads: "
@@ -132,11 +130,23 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
         name = "floats" if problem.floats else "alpha"
         raise InputError(name, getattr(problem, name), reason)
     loads, notes = exact_loads(problem, RTOL if rtol is None else rtol)
+    if problem.sections or problem.hole is not None:
+        loads = tuple(replace(load, above_middle=above_middle(problem)) for load in loads)
+    if problem.sections:
+        rows = string_rows(case, loads, extra)
+        return Audit(problem, scales, title, loads, (*notes, OF_A_SECTION), rows, ())
     rod = _known_rod(case, extra or {})
     rows = load_rows(case, loads, extra)
     others = _others(rod, loads[0], problem)
     applied = () if not isinstance(case, Case) else tuple(_at(case, load, rod, loads[0]) for load in case.applied)
     return Audit(problem, scales, title, loads, notes, rows, others, applied)
+
+
+OF_A_SECTION = (
+    "formulas of pitch, contact, stress, shortening and lock-up: those of a uniform rod; audit the section that "
+    "buckles as a rod of its own"
+)
+"""What is not compared of a string."""
 
 
 def _others(rod: FormulaInputs, load: ExactLoad, problem: Problem) -> tuple[Other, ...]:
@@ -148,5 +158,5 @@ def _at(case: Case, load: AppliedLoad, rod: FormulaInputs, critical: ExactLoad) 
     given = f"{text_of(load.given, 6)} B/L²" if case.scales is None else case.scales.system.text(load.given, "force", 6)
     number = "" if len(case.applied) == 1 else f" {1 + case.applied.index(load)}"
     label = f"applied load{number}, {given} at the {'bottom' if load.bottom else 'top'}"
-    exact = ExactLoad("applied", label, load.force, 0.0, case.problem.hung_weight)
+    exact = ExactLoad("applied", label, load.force, 0.0, case.problem.hung_weight, critical.above_middle)
     return AtApplied(load, exact, load.force >= critical.force, _others(rod, exact, case.problem))

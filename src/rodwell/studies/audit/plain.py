@@ -33,7 +33,7 @@ def audit_dict(audit: Audit) -> dict[str, Any]:
             "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
             "twist": problem.twist,
             "ends": list(problem.ends), "on_top": problem.on_top, "outside": problem.outside,
-            "floats": problem.floats,
+            "floats": problem.floats, **problem.given_more,
         },
         "exact": [
             {
@@ -93,6 +93,7 @@ def _row(audit: Audit, row: FormulaRow) -> dict[str, Any]:
         "missing": list(row.missing),
         "against": row.against,
         "verdict": row.verdict,
+        **_sections(audit, row),
         "comparisons": [
             {
                 "load": c.load, "place": c.place, "exact": c.exact, "exact_error": c.error, "percent": c.percent,
@@ -101,6 +102,17 @@ def _row(audit: Audit, row: FormulaRow) -> dict[str, Any]:
             for c in row.comparisons
         ],
     }  # fmt: skip
+
+
+def _sections(audit: Audit, row: FormulaRow) -> dict[str, Any]:
+    """Of a string, the section that governs, and the formula's load in each."""
+    if not row.section:
+        return {}
+    each = [
+        {"section": one.section, "value": one.value, "force": one.force,
+         **_si(audit, FORCE, {"value": one.value, "force": one.force})} for one in row.by_section
+    ]  # fmt: skip
+    return {"section": row.section, "by_section": each}
 
 
 def _other(audit: Audit, other: Other) -> dict[str, Any]:

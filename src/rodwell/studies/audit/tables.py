@@ -14,12 +14,13 @@ HEAD = ("key", "name", "kind", "value_B/L2", "load", "place", "meant_place", "ex
 
 def csv_rows(audit: Audit) -> list[tuple[object, ...]]:
     """Return head and lines of a table: one line for each formula, exact load and place."""
-    lines: list[tuple[object, ...]] = [HEAD]
+    string = bool(audit.problem.sections)
+    lines: list[tuple[object, ...]] = [(*HEAD, *(("section",) if string else ()))]
     for row in audit.rows:
         f, why = row.formula, "; ".join(row.reasons)
         for c in row.comparisons:
             lines.append(
                 (f.key, f.name, f.kind, row.value, c.load, c.place, f.place, c.exact, c.error, c.percent,
-                 c.percent_error, c.safe, row.valid, why, row.verdict)
+                 c.percent_error, c.safe, row.valid, why, row.verdict, *((row.section,) if string else ()))
             )  # fmt: skip
     return lines

@@ -168,6 +168,9 @@ def _given(case: Case) -> schema.PackerInput:
 
 
 def _tubing(case: Case, given: schema.PackerInput, rod: PhysicalRod) -> Tubing:
+    if rod.core_diameter is not None:
+        what = "is that of a solid core, and tubing in a packer has a bore: leave it out, and give inner_diameter"
+        raise InputError("rod.core_diameter", rod.core_diameter, what)
     if rod.outer_diameter is None or not rod.bore_known or rod.inner_diameter == 0.0:
         key = "rod.outer_diameter" if rod.outer_diameter is None else "rod.inner_diameter"
         raise InputError(key, None, "is missing: changes of length need both diameters of the tubing")
