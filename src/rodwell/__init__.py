@@ -85,6 +85,7 @@ _HOME = {
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "map": "rodwell.store.mapping",
     "mode_pairs": "rodwell.analysis.straight.modes",
+    "ramp": "rodwell.problem.sections",
     "read_surveys": "rodwell.survey.survey",
     "packer": "rodwell.studies.packer.packer",
     "paper_values": "rodwell.analysis.proof.paper_values",
@@ -135,6 +136,7 @@ if TYPE_CHECKING:
     from rodwell.case.case import Case
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.problem.problem import Problem
+    from rodwell.problem.sections import ramp
     from rodwell.problem.varying import ParameterPath
     from rodwell.report.folders.export import export
     from rodwell.store.mapping import map  # noqa: A004

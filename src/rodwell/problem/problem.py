@@ -12,6 +12,7 @@ import numpy as np
 
 from rodwell.errors import InputError
 from rodwell.problem.checks import check
+from rodwell.problem.clearances import refuse_clearances
 from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS
 from rodwell.problem.hole import Hole
 from rodwell.problem.lying import heights_of_lying_rod
@@ -59,12 +60,13 @@ class Problem:
         has no effect. None: that of ``poisson``.
     sections
         A string of sections from s = 0: (length, stiffness, weight, clearance, torsion) of each, the lengths in L,
-        adding up to 1, the others ratios to the data of the problem, 1 where left out; all but the clearance may vary
-        along the section, as two to five values at evenly spaced places of it, a polynomial. ``weight`` is that of a
+        adding up to 1, the others ratios to the data of the problem, 1 where left out; all of these may vary along
+        the section, as two to five values at evenly spaced places of it, a polynomial. ``weight`` is that of a
         uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
         ``poisson`` give C of torsion ratio 1. A clearance ratio that all share goes into ``clearance``; where it has
         steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
-        computed of rods that stay on the wall is refused. In a curved hole each section has one stiffness, weight and
+        computed of rods that stay on the wall is refused. Where it varies, without steps and kinks
+        (:func:`rodwell.ramp`), there are critical loads. In a curved hole each section has one stiffness, weight and
         torsion, and all have one clearance. None given: a uniform rod.
     build, walk
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
@@ -132,15 +134,13 @@ class Problem:
         return bool(self.sections) and self.rod.clearance_steps.size > 0
 
     def refuse_bridges(self, what: str) -> None:
-        """Raise where the clearance has steps: ``what`` are computed of rods that stay on the wall."""
-        if self.bridges:
-            ratios = " + ".join(f"{section[3]:g}" for section in self.sections[:6])
-            raise InputError(
-                "sections", f"clearance ratios {ratios}" + (" + …" if len(self.sections) > 6 else ""),
-                f"must have one clearance: {what} are those of a rod that stays on the wall, and a string bridges "
-                "steps of the clearance, off the wall. How it lies there, and when it buckles: `rodwell run` "
-                "of a case; `rodwell path`, `rodwell critical`, rodwell.load_path",
-            )  # fmt: skip
+        """Raise where the clearance has steps or varies: ``what`` are those of rods on a wall of one clearance."""
+        refuse_clearances(self, what)
+
+    @property
+    def ramps(self) -> bool:
+        """Whether the clearance varies along sections, without steps and kinks: critical loads are known of it."""
+        return bool(self.sections) and self.rod.ramps
 
     @property
     def tapered(self) -> bool:

@@ -33,6 +33,7 @@ def checked_problem(problem: Problem) -> None:
     """Raise if a rod has no load path here, with the reason."""
     problem.refuse_curved("load paths off the wall are followed")
     if not problem.bridges:
+        problem.refuse_bridges("load paths off the wall")  # also of clearances that vary without steps
         _refuse_kinks(problem)
     if problem.outside:
         raise InputError(
