@@ -165,18 +165,20 @@ class Rod:
 
         A buckled rod stays on the wall there only if it is held to it.
         """
-        if not self.tapered:
-            return False
-        (below, above), (rate, next_rate) = self.stiffness_sides, self.stiffness_rate_sides
-        return bool(np.any((below == above) & (next_rate < rate)))
+        return bool(np.any(self.stiffness_kink_sizes < 0.0))
 
     @cached_property
-    def stiffness_kinks(self) -> FloatArray:
-        """Where the bending stiffness has a kink and no step, (k,), in L."""
+    def stiffness_kink_sizes(self) -> FloatArray:
+        """By how much the derivative of B(s)/B jumps at ends of sections, (n − 1,), in 1/L; 0 where B itself does."""
         if not self.tapered:
-            return np.zeros(0)
+            return np.zeros(len(self.sections) - 1)
         (below, above), (rate, next_rate) = self.stiffness_sides, self.stiffness_rate_sides
-        return np.asarray(self.breaks[1:-1][(below == above) & (next_rate != rate)])
+        return np.where(below == above, next_rate - rate, 0.0)
+
+    def falls_within(self, left: float, right: float) -> FloatArray:
+        """Kinks from one place to another at which the bending stiffness begins to fall, or ceases to rise, in L."""
+        places = self.breaks[1:-1][self.stiffness_kink_sizes < 0.0]
+        return np.asarray(places[(places >= left) & (places <= right)])
 
     @cached_property
     def whole_weight(self) -> float:
