@@ -78,7 +78,7 @@ _HOME = {
     "local_state": "rodwell.analysis.endless.local",
     "save_branch": "rodwell.store.restart",
     "screen": "rodwell.studies.well.screening",
-    "sensitivities": "rodwell.analysis.loads.sensitivity",
+    "sensitivities": "rodwell.analysis.path.bridged_slopes",
     "load_path": "rodwell.analysis.path.follow",
     "load_branch": "rodwell.store.restart",
     "lying_rod": "rodwell.analysis.loads.lying_rod",
@@ -119,9 +119,10 @@ if TYPE_CHECKING:
     from rodwell.analysis.endless.jointed import JointedString, jointed_string
     from rodwell.analysis.endless.local import LocalState, local_state
     from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
-    from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
+    from rodwell.analysis.loads.sensitivity import Sensitivity
     from rodwell.analysis.loads.torsion import Torsion, torsion
     from rodwell.analysis.loads.turns import turns_of_least_energy
+    from rodwell.analysis.path.bridged_slopes import sensitivities
     from rodwell.analysis.path.elsewhere import follow_contact
     from rodwell.analysis.path.follow import load_path
     from rodwell.analysis.path.load_path import LoadPath
