@@ -39,6 +39,7 @@ WEIGHTS = tuple(10.0**k for k in range(1, 10))
 INCLINATIONS = (90.0, 60.0, 0.0)
 MODES = (1, 3, 10, 30, 100)
 PROBLEMS = (1, 10, 100)
+BRIDGED = (10, 30, 100, 300)
 JOINTS = (10, 100, 300, 1_000, 3_000, 10_000)
 FOUNDATIONS = (1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16)
 
@@ -110,7 +111,7 @@ def main() -> None:
     text = (
         report(times, sizes, by_weight, by_modes)
         + "\n"
-        + "\n".join([*problems(), "", *horizontal(), "", *joints()])
+        + "\n".join([*problems(), "", *horizontal(), "", *joints(), "", *bridging()])
         + "\n"
     )
     print(text)
@@ -189,6 +190,30 @@ def joints() -> list[str]:
             spent = best(lambda r=rod: critical_loads(r, 1), 3 if count <= 1_000 else 1)
             cells += [f"{spent:.3g} s", f"{1e3 * spent / count:.2g} ms"]
         lines.append(f"| {' | '.join(cells)} |")
+    return lines
+
+
+def bridging() -> list[str]:
+    """Lines of a table: tool joints that a string bridges, in a level hole, followed until it buckles sideways.
+
+    Joints of length l with w l³/B = 0.15 in a hole of 0.006 l about their bodies, 0.6 of it about their tool joints.
+    """
+    lines = [
+        "| bridged tool joints, α = 90° | until it buckles sideways | per joint | load |",
+        "| --- | --- | --- | --- |",
+    ]
+    for count in BRIDGED:
+        joint = 1.0 / count
+        half, body, whole = ((part * joint, *ratios) for part, ratios in (
+            (0.03, (3.0, 2.0, 0.6)), (0.94, (1.0, 1.0, 1.0)), (0.06, (3.0, 2.0, 0.6))
+        ))  # fmt: skip
+        string = (half, *[body, whole] * (count - 1), body, half)
+        rod = rodwell.Problem(0.15 * count**3, 90.0, clearance=0.006 * joint, sections=string)
+        found: list[rodwell.LoadPath] = []
+        spent = best(lambda r=rod, out=found: out.append(rodwell.load_path(r)), 1)
+        event = found[-1].first("critical")
+        load = "not found" if event is None else f"{event.force.value:.10g} B/L²"
+        lines.append(f"| {count} | {spent:.3g} s | {1e3 * spent / count:.2g} ms | {load} |")
     return lines
 
 

@@ -18,7 +18,7 @@ from rodwell.analysis.discrete.family import family as equilibria
 from rodwell.analysis.discrete.family import spline_ends
 from rodwell.analysis.discrete.measures import Measured, measure, measured_meshes
 from rodwell.analysis.discrete.meshes import first_space
-from rodwell.analysis.straight import critical
+from rodwell.analysis.straight import kept
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState
@@ -101,7 +101,7 @@ def orders() -> dict[int, Orders]:
             error = contact_pressure(PLACES, *v, family.parameters(FORCE)) - pressure
             p.append(np.max(np.abs(error)) / np.max(np.abs(pressure)))
         for elements in LOAD_MESHES[degree]:
-            values, _ = critical._solve(PROBLEM, SplineSpace(np.linspace(0.0, 1.0, elements + 1), degree), 1, None)
+            values, _ = kept.loads_on_mesh(PROBLEM, SplineSpace(np.linspace(0.0, 1.0, elements + 1), degree), 1, None)
             f.append(abs(values[0] + load) / abs(load))
         out[degree] = Orders(np.array(h2), np.array(p), np.array(f))
     return out

@@ -52,6 +52,7 @@ COMMANDS = {
     "run-build": "run examples/build-section.toml --out results/build",
     "run-surveyed": "run examples/surveyed-well.toml --out results/surveyed",
     "liftoff-sections": "liftoff --weight 15 --alpha 60 --sections 0.6:1:1,0.4:0.3:0.5",
+    "critical-varying": "critical --weight 60 --alpha 60 --sections 0.2:1,0.5:1:1:1~1.1,0.3:1:1:1.1 --modes 3",
     "critical-taper": "critical --weight 15 --alpha 60 --sections 0.6:1:1,0.4:1/0.5/0.2:1/0.6 --modes 3",
     "critical-steps": "critical --weight 1000 --alpha 90 --sections 0.3:1:1:1,0.4:1:1:0.6,0.3:1:1:1 "
     "--out results/critical-steps",

@@ -78,13 +78,14 @@ _HOME = {
     "local_state": "rodwell.analysis.endless.local",
     "save_branch": "rodwell.store.restart",
     "screen": "rodwell.studies.well.screening",
-    "sensitivities": "rodwell.analysis.loads.sensitivity",
+    "sensitivities": "rodwell.analysis.path.bridged_slopes",
     "load_path": "rodwell.analysis.path.follow",
     "load_branch": "rodwell.store.restart",
     "lying_rod": "rodwell.analysis.loads.lying_rod",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "map": "rodwell.store.mapping",
     "mode_pairs": "rodwell.analysis.straight.modes",
+    "ramp": "rodwell.problem.sections",
     "read_surveys": "rodwell.survey.survey",
     "packer": "rodwell.studies.packer.packer",
     "paper_values": "rodwell.analysis.proof.paper_values",
@@ -119,9 +120,9 @@ if TYPE_CHECKING:
     from rodwell.analysis.endless.local import LocalState, local_state
     from rodwell.analysis.loads.derivatives import Sensitivity
     from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
-    from rodwell.analysis.loads.sensitivity import sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
     from rodwell.analysis.loads.turns import turns_of_least_energy
+    from rodwell.analysis.path.bridged_slopes import sensitivities
     from rodwell.analysis.path.elsewhere import follow_contact
     from rodwell.analysis.path.follow import load_path
     from rodwell.analysis.path.load_path import LoadPath
@@ -136,6 +137,7 @@ if TYPE_CHECKING:
     from rodwell.case.case import Case
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.problem.problem import Problem
+    from rodwell.problem.sections import ramp
     from rodwell.problem.varying import ParameterPath
     from rodwell.report.folders.export import export
     from rodwell.store.mapping import map  # noqa: A004

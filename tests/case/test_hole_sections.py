@@ -135,7 +135,8 @@ def test_what_cannot_be_is_named(changes: dict[str, Any], words: str) -> None:
 
 
 def test_keys_are_explained() -> None:
-    assert [key.name for key in keys_named("hole.section")] == ["name", "length", "from", "to", "diameter"]
+    names = [key.name for key in keys_named("hole.section")]
+    assert names == ["name", "length", "from", "to", "diameter", "diameter_at_top"]
     (length,) = keys_named("hole.section.length")
     assert not length.required
 

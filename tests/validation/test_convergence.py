@@ -62,13 +62,13 @@ def test_order_in_h2_and_in_the_contact_pressure(degree: int, exact: tuple[np.nd
 @pytest.mark.parametrize("degree", [4, 5])
 def test_order_of_critical_loads(degree: int) -> None:
     """Eigenvalues converge like h^(2(p−1))."""
-    from rodwell.analysis.straight import critical
+    from rodwell.analysis.straight import kept
 
     reference = critical_loads(PROBLEM, 1, rtol=1e-11)[0].force
     errors, meshes = [], np.array([32, 38, 44])
     for elements in meshes:
         space = SplineSpace(np.linspace(0.0, 1.0, int(elements) + 1), degree)
-        values, _ = critical._solve(PROBLEM, space, 1, None)
+        values, _ = kept.loads_on_mesh(PROBLEM, space, 1, None)
         errors.append(abs(-values[0] - reference))
     order = -np.polyfit(np.log(meshes), np.log(errors), 1)[0]
     assert order == pytest.approx(2 * (degree - 1), abs=0.2)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from rodwell.case.pipe import PhysicalRod
 from rodwell.case.string.sections import Member, PhysicalString
 from rodwell.case.string.tapers import AT_TOP
 from rodwell.errors import InputError
-from rodwell.problem.profile import within
+from rodwell.problem.profile import Ratio, extremes, within
 from rodwell.problem.sections import PLAIN, Section
 
 EQUAL = 1e-9
@@ -24,14 +24,15 @@ EQUAL = 1e-9
 class Pair:
     """A piece of the rod between steps, s/L: the section of the string (None: the rod is one), the part of the hole.
 
-    ``clearance`` is from axis to axis, in m.
+    ``clearance`` is from axis to axis, in m: a number, or values at evenly spaced places from the lower end, of which
+    it is the polynomial.
     """
 
     start: float
     end: float
     member: Member | None
     part: HolePart
-    clearance: float
+    clearance: Ratio
 
     @property
     def name(self) -> str:
@@ -62,19 +63,27 @@ def pairs_of(
                 one = rod if member is None else member.rod
                 if member is not None and hole.clearance is None:
                     _refuse_tapering_clearance(member)
-                out.append(Pair(low, high, member, part, _clearance(one, hole, member, part)))
+                inside = (low - part.start) / (part.end - part.start), (high - part.start) / (part.end - part.start)
+                here = part if part.diameter is None else replace(part, diameter=within(part.diameter, *inside))
+                out.append(Pair(low, high, member, part, _clearance(one, hole, member, here)))
     return tuple(out)
 
 
 def reference(pairs: Sequence[Pair]) -> float:
-    """The clearance that the others are ratios to, in m: that of the longest piece, the lowest of equals."""
-    longest = max(pair.end - pair.start for pair in pairs)
-    return next(pair.clearance for pair in pairs if pair.end - pair.start >= longest - EQUAL)
+    """The clearance that the others are ratios to, in m: that of the longest piece of one, the lowest of equals.
+
+    Where it varies all along the rod, that at its lower end.
+    """
+    lengths = [(pair.end - pair.start, pair.clearance) for pair in pairs if isinstance(pair.clearance, float)]
+    longest = max((length for length, _ in lengths), default=0.0)
+    first = pairs[0].clearance
+    at_bottom = first[0] if isinstance(first, tuple) else first
+    return next((clearance for length, clearance in lengths if length >= longest - EQUAL), at_bottom)
 
 
 def stepped(pairs: Sequence[Pair]) -> bool:
-    """Whether the clearance has steps."""
-    sizes = [pair.clearance for pair in pairs]
+    """Whether there are several clearances, by steps or along the rod."""
+    sizes = [size for pair in pairs for size in extremes(pair.clearance)[::2]]
     return max(sizes) - min(sizes) > EQUAL * max(sizes)
 
 
@@ -89,7 +98,9 @@ def sections_of(pairs: Sequence[Pair], string: PhysicalString | None) -> tuple[S
             part = string.part_of(pair.member, np.array([pair.start, pair.end]))
             _, *ratios, _, torsion = string.sections[pair.member.place]
             stiffness, weight, torsion = (within(one, *map(float, part)) for one in (*ratios, torsion))
-        out.append((pair.end - pair.start, stiffness, weight, pair.clearance / unit, torsion))
+        clearance = pair.clearance
+        ratio = tuple(one / unit for one in clearance) if isinstance(clearance, tuple) else clearance / unit
+        out.append((pair.end - pair.start, stiffness, weight, ratio, torsion))
     return tuple(out)
 
 
@@ -102,7 +113,7 @@ def _refuse_tapering_clearance(member: Member) -> None:
         raise InputError(f"{member.key}.outer_diameter{AT_TOP}", f"{last:g} m", what)
 
 
-def _clearance(rod: PhysicalRod, hole: Hole, member: Member | None, part: HolePart) -> float:
+def _clearance(rod: PhysicalRod, hole: Hole, member: Member | None, part: HolePart) -> Ratio:
     """The clearance of a rod in a part of the hole."""
     of_rod = "rod" if member is None else member.key
     of_hole = part.name
@@ -115,12 +126,15 @@ def _clearance(rod: PhysicalRod, hole: Hole, member: Member | None, part: HolePa
     outer = rod.outer_diameter
     if outer is None:
         raise InputError(f"{of_rod}.outer_diameter", None, "is missing: it is needed with hole.diameter")
-    if outer < part.diameter:
+    narrowest = extremes(part.diameter)[0]
+    if outer < narrowest:
+        if isinstance(part.diameter, tuple):
+            return tuple(0.5 * (one - outer) for one in part.diameter)
         return 0.5 * (part.diameter - outer)
     if member is None:
         what = f"must be above the rod's outer diameter of {outer:g} m: the rod does not fit"
-        raise InputError(f"{of_hole}.diameter", part.diameter, what)
-    what = f"must be below the hole's diameter of {part.diameter:g} m: the section does not fit"
+        raise InputError(f"{of_hole}.diameter", narrowest, what)
+    what = f"must be below the hole's diameter of {narrowest:g} m: the section does not fit"
     if of_hole != WHOLE:
-        what = f"must be below the diameter of {of_hole} of {part.diameter:g} m: the section does not fit"
+        what = f"must be below the diameter of {of_hole} of {narrowest:g} m: the section does not fit"
     raise InputError(member.diameter_key, f"{outer:.6g} m", what)

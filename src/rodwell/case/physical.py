@@ -22,6 +22,7 @@ from rodwell.errors import InputError
 from rodwell.problem.checks import SMALLEST_CLEARANCE
 from rodwell.problem.ends import checked_ends
 from rodwell.problem.problem import Problem
+from rodwell.problem.profile import extremes
 from rodwell.problem.words import where_it_bridges
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.units import System
@@ -95,8 +96,8 @@ def physical(
         facts = [*string.facts(), Fact("mean weight per length mg, in the fluids", weight, "force_per_length")]
     if stepped(pairs):
         facts += [
-            Fact(f"clearance, from axis to axis: {pair.name}", pair.clearance, "length",
-                 f"s/L = {pair.start:.4g} to {pair.end:.4g}") for pair in pairs
+            Fact(f"clearance, from axis to axis: {pair.name}", extremes(pair.clearance)[0], "length",
+                 f"s/L = {pair.start:.4g} to {pair.end:.4g}" + _up_to(pair, system)) for pair in pairs
         ]  # fmt: skip
     note = "of the longest piece" if stepped(pairs) else _clearance_from(hole, string is None)
     facts += [Fact("clearance Δ, from axis to axis", clearance, "length", note), *lie.facts]
@@ -109,14 +110,14 @@ def physical(
                                     lie.height)  # fmt: skip
     wall = math.inf if hole.wall_stiffness is None else hole.wall_stiffness / scales.factor("stress")
     pieces = pairs if stepped(pairs) else ()
-    if problem.bridges:
+    if problem.bridges or problem.ramps:
         _check_bridging(problem, hole, lie)
     return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string, wall, pieces)
 
 
 def _check_bridging(problem: Problem, hole: Hole, lie: Lie) -> None:
-    """Refuse of a string that leaves the wall by itself what is not computed of it."""
-    where = where_it_bridges(problem)
+    """Refuse of a string that leaves the wall by itself, or beside several clearances, what is not computed of it."""
+    where = "where the clearance varies" if problem.ramps else where_it_bridges(problem)
     if problem.floats:
         raise InputError("mud.outside", None, f"lets the rod float, which is not computed {where}")
     if lie.height < 0.0:
@@ -129,10 +130,12 @@ def _check_bridging(problem: Problem, hole: Hole, lie: Lie) -> None:
 
 def _check_clearance(pair: Pair, hole: Hole, length: float) -> None:
     """Refuse a clearance that is no part of the rod's length."""
-    clearance, where = pair.clearance, "" if pair.name == WHOLE else f" beside {pair.name}"
-    field, value = ("hole.clearance", hole.clearance) if hole.clearance else ("hole.diameter", pair.part.diameter)
-    if clearance >= length:
-        what = f"leaves a clearance of {clearance:g} m{where}, which must be below the rod's length of {length:g} m"
+    (clearance, _, widest), where = extremes(pair.clearance), "" if pair.name == WHOLE else f" beside {pair.name}"
+    field, value = ("hole.clearance", hole.clearance) if hole.clearance else (f"{pair.part.name}.diameter", None)
+    if pair.part.diameter is not None and not hole.clearance:
+        field, value = "hole.diameter", extremes(pair.part.diameter)[0]
+    if widest >= length:
+        what = f"leaves a clearance of {widest:g} m{where}, which must be below the rod's length of {length:g} m"
         raise InputError(field, value, what)
     if clearance < SMALLEST_CLEARANCE * length:
         raise InputError(
@@ -190,6 +193,7 @@ def _problem(
             "axis": "hole.centerline" if hole.survey is None else "hole.survey",
             "floats": "mud.outside",
             "sections": "string",
+            "sections, clearance": "hole.section",
         }
         name = names.get(error.field, error.field)
         what = error.reason
@@ -198,6 +202,8 @@ def _problem(
             what += "units of length, weight or density, stiffness or diameters, and gravity"
         if error.field == "clearance":
             what = f"makes Δ/L = {clearance / rod.length:.3g}, which {what}: check its unit and that of the length"
+        if error.field == "sections, clearance":
+            raise InputError(name, None, f"lets the clearance have {error.value}, and it {what}") from None
         if error.field == "sections" and "clearance" in what:
             what += ", as hole.clearance"
         if error.field == "floats":
@@ -266,6 +272,12 @@ def check_force_words(load: schema.LoadInput | schema.DimensionlessLoad) -> None
                 getattr(load, key),
                 "tells of load.until and load.applied: give load.until or load.applied too, or leave it out",
             )
+
+
+def _up_to(pair: Pair, system: System) -> str:
+    """Up to which clearance it goes in a piece in which it varies."""
+    least, _, most = extremes(pair.clearance)
+    return "" if least == most else f", varying: up to {system.text(most, 'length', 6)}"
 
 
 def _clearance_from(hole: Hole, one_rod: bool) -> str:

@@ -8,6 +8,7 @@ import click
 
 from rodwell.cli.critical_bridged import bridged_numbers, first_buckling, show_bridged
 from rodwell.cli.critical_in_hole import lying_numbers, show_lying
+from rodwell.cli.critical_varying import show_varying, varying_numbers
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
 from rodwell.cli.lying_in_space import critical_in_space, leaves_the_plane
@@ -36,7 +37,8 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
     does, and without the wall's help, it makes the rod buckle earlier. In a curved hole (--build): loads of both signs,
     and where the wall would have to pull the rod that lies along it. In one that leaves the vertical plane (--walk) the
     rod moves with the load: between which forces it lies on the wall, stable, and what ends that. Where --sections have
-    several clearances: the first load at which the string that bridges their steps buckles sideways.
+    several clearances: the first load at which the string that bridges their steps buckles sideways; where the
+    clearance goes over smoothly (a~b): loads of the rod that lies on the wall, as long as that presses it everywhere.
     """
     from rodwell.analysis.straight.critical import critical_loads, tensile_loads  # noqa: PLC0415
     from rodwell.analysis.straight.without_wall import loads_without_wall  # noqa: PLC0415
@@ -46,6 +48,11 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
         path = first_buckling(problem, rtol)
         keep(where, lambda: bridged_numbers(path), quiet=as_json)
         show_bridged(path, rtol, as_json)
+        return
+    if problem.ramps:
+        varying = critical_loads(problem, modes, rtol=rtol)
+        keep(where, lambda: varying_numbers(varying), quiet=as_json)
+        show_varying(varying, modes, as_json)
         return
     if leaves_the_plane(problem):
         critical_in_space(problem, rtol, where, as_json)

@@ -72,11 +72,12 @@ def _critical(path: LoadPath) -> PathPoint:
 def _one_clearance(problem: Problem) -> tuple[tuple[float, Value], ...]:
     """The first critical load with each clearance all along, from the widest down: files and text show them."""
     from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
+    from rodwell.problem.profile import extremes  # noqa: PLC0415
 
-    found: list[tuple[float, Value]] = []
     if problem.rod.mixed:  # which leaves the wall with any clearance
         return ()
-    for ratio in sorted({section[3] for section in problem.sections}, reverse=True):
+    found: list[tuple[float, Value]] = []
+    for ratio in sorted({extremes(section[3])[0] for section in problem.sections}, reverse=True):
         same = [(*section[:3], 1.0, section[4]) for section in problem.sections]
         mode = critical_loads(problem.but(sections=same, clearance=ratio * problem.clearance), 1)[0]
         found.append((ratio * problem.clearance, mode.load))

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 WHERE = {
     "point": "at a point of contact", "end": "at the end of a stretch in contact",
     "edge": "at the edge of a narrower part of the hole", "tip": "at the loose end",
+    "kink": "at a kink of the stiffness",
 }  # fmt: skip
 """Where a point force acts, in words."""
 

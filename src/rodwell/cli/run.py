@@ -82,6 +82,11 @@ def run(
 
         run_bridged(read, folder, as_json=as_json, quiet=quiet, with_pdf=with_pdf)
         return
+    if read.problem.ramps:
+        from rodwell.cli.run_varying import run_varying  # noqa: PLC0415
+
+        run_varying(read, folder, as_json=as_json, quiet=quiet, with_pdf=with_pdf)
+        return
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
     from rodwell.report.folders.beside import drawing_beside  # noqa: PLC0415
 

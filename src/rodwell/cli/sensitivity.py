@@ -28,10 +28,13 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
     Exact derivatives, and elasticities: the change of the end force at s = 1 in percent for one percent more of an
     input, the others constant.
     """
-    from rodwell.analysis.loads.sensitivity import sensitivities  # noqa: PLC0415
     from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     where, problem = take_keep(given), make_problem(given)
+    if problem.bridges:
+        from rodwell.analysis.path.bridged_slopes import sensitivities  # noqa: PLC0415
+    else:
+        from rodwell.analysis.loads.sensitivity import sensitivities  # noqa: PLC0415
     loads = sensitivities(problem, mode, rtol=rtol)
     missed = [load.name for load in loads if not load.converged]
     convention = "end force F at s = 1 in B/L^2, tension positive; alpha in degrees; " + ends_text(problem)
@@ -87,6 +90,7 @@ _OF_SECTION = {
     "weight": "unit of the weight ratio, section {}",
     "stiffness_factor": "unit of a factor on the stiffness, section {}",
     "weight_factor": "unit of a factor on the weight, section {}",
+    "clearance": "unit of the clearance ratio, section {}",
     "upper_end": "L that section {} is longer, the next shorter",
 }
 _MORE = {

@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 
 from rodwell.errors import InputError, InputWarning, checked_number
+from rodwell.problem.clearances import check_ramps
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends, refuse_off_wall
 from rodwell.problem.hole import CURVATURE_ALLOWED, MOST_CURVATURE, Hole, checked_axis
+from rodwell.problem.profile import extremes
 from rodwell.problem.sections import Section, checked_sections
 
 LARGEST_WEIGHT = 1e9
@@ -75,6 +77,8 @@ def check(problem: Any) -> None:
         object.__setattr__(problem, "axis", ())
     if problem.build != 0.0 or problem.walk != 0.0 or len(problem.axis) > 0:
         _check_hole(problem)
+    if problem.ramps:
+        check_ramps(problem)
     _ask_for_degrees(problem.alpha)
 
 
@@ -97,16 +101,17 @@ def _take_clearance(problem: Any) -> None:
     """Take a clearance ratio that all sections share into the clearance, and check those of the others."""
     _refuse_all_floating(problem.sections)
     ratios = [section[3] for section in problem.sections]
-    if min(ratios) == max(ratios) != 1.0:
+    if not any(isinstance(ratio, tuple) for ratio in ratios) and min(ratios) == max(ratios) != 1.0:
         object.__setattr__(problem, "clearance", problem.clearance * ratios[0])
         same = [(*section[:3], 1.0, section[4]) for section in problem.sections]
         object.__setattr__(problem, "sections", checked_sections(same))
         return
-    for number, ratio in enumerate(ratios, 1):
-        if not SMALLEST_CLEARANCE <= ratio * problem.clearance < 1.0:
-            what = f"makes its clearance {ratio * problem.clearance:g} L: must be above 0 and below 1, a part of the "
-            what += f"rod's length (at least {SMALLEST_CLEARANCE:g})"
-            raise InputError(f"section {number}, clearance", ratio, what)
+    for number, one in enumerate(ratios, 1):
+        for ratio in extremes(one)[::2]:
+            if not SMALLEST_CLEARANCE <= ratio * problem.clearance < 1.0:
+                what = f"makes its clearance {ratio * problem.clearance:g} L: must be above 0 and below 1, a part of "
+                what += f"the rod's length (at least {SMALLEST_CLEARANCE:g})"
+                raise InputError(f"section {number}, clearance", ratio, what)
 
 
 def _refuse_all_floating(sections: tuple[Section, ...]) -> None:

@@ -59,14 +59,15 @@ class Problem(Refusals):
         has no effect. None: that of ``poisson``.
     sections
         A string of sections from s = 0: (length, stiffness, weight, clearance, torsion) of each, the lengths in L,
-        adding up to 1, the others ratios to the data of the problem, 1 where left out; all but the clearance may vary
-        along the section, as two to five values at evenly spaced places of it, a polynomial. ``weight`` is that of a
+        adding up to 1, the others ratios to the data of the problem, 1 where left out; all of these may vary along
+        the section, as two to five values at evenly spaced places of it, a polynomial. ``weight`` is that of a
         uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
         ``poisson`` give C of torsion ratio 1. A clearance ratio that all share goes into ``clearance``; where it has
         steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
         computed of rods that stay on the wall is refused. So does it where it begins to float: a section of negative
-        weight ratio, beside others of positive ones, lies on the upper side; the ends stay at the bottom. In a curved
-        hole all have one clearance. None given: a uniform rod.
+        weight ratio, beside others of positive ones, lies on the upper side; the ends stay at the bottom. Where the
+        clearance varies without steps and kinks (:func:`rodwell.ramp`), there are critical loads. In a curved hole all
+        have one clearance. None given: a uniform rod.
     build, walk
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
         turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the
@@ -130,6 +131,11 @@ class Problem(Refusals):
     def bridges(self) -> bool:
         """Whether a string leaves the wall: over steps of the clearance, or between sections that sink and float."""
         return bool(self.sections) and (self.rod.clearance_steps.size > 0 or self.rod.mixed)
+
+    @property
+    def ramps(self) -> bool:
+        """Whether the clearance varies along sections, without steps and kinks: critical loads are known of it."""
+        return bool(self.sections) and self.rod.ramps
 
     @property
     def tapered(self) -> bool:

@@ -41,8 +41,13 @@ class Rod:
 
     @cached_property
     def tapered(self) -> bool:
-        """Whether a ratio varies along a section."""
-        return any(isinstance(ratio, tuple) for section in self.sections for ratio in section)
+        """Whether stiffness, weight or torsion vary along a section."""
+        return any(isinstance(section[k], tuple) for section in self.sections for k in (1, 2, 4))
+
+    @cached_property
+    def ramps(self) -> bool:
+        """Whether the clearance varies along a section."""
+        return any(isinstance(section[3], tuple) for section in self.sections)
 
     def tapers(self, ratio: str) -> BoolArray:
         """In which sections a ratio, one of :data:`rodwell.problem.sections.RATIOS`, varies, (n,)."""
@@ -114,11 +119,15 @@ class Rod:
     @cached_property
     def clearance(self) -> Profile:
         """Δ(s)/Δ, of the hole beside each section."""
+        if self.ramps:
+            return along(self.breaks, [section[3] for section in self.sections])
         return Profile(self.breaks, self._ratios(3)[:, None])
 
     @cached_property
     def clearance_steps(self) -> FloatArray:
-        """Where the clearance has a step, (k,), in L: the string bridges it, off the wall."""
+        """Where the clearance has a step, (k,), in L: the string bridges it, off the wall. Where it varies: nowhere."""
+        if self.ramps:
+            return np.zeros(0)
         clearance = self._ratios(3)
         return np.asarray(self.breaks[1:-1][clearance[1:] != clearance[:-1]])
 
@@ -184,18 +193,20 @@ class Rod:
 
         A buckled rod stays on the wall there only if it is held to it.
         """
-        if not self.tapered:
-            return False
-        (below, above), (rate, next_rate) = self.stiffness_sides, self.stiffness_rate_sides
-        return bool(np.any((below == above) & (next_rate < rate)))
+        return bool(np.any(self.stiffness_kink_sizes < 0.0))
 
     @cached_property
-    def stiffness_kinks(self) -> FloatArray:
-        """Where the bending stiffness has a kink and no step, (k,), in L."""
+    def stiffness_kink_sizes(self) -> FloatArray:
+        """By how much the derivative of B(s)/B jumps at ends of sections, (n − 1,), in 1/L; 0 where B itself does."""
         if not self.tapered:
-            return np.zeros(0)
+            return np.zeros(len(self.sections) - 1)
         (below, above), (rate, next_rate) = self.stiffness_sides, self.stiffness_rate_sides
-        return np.asarray(self.breaks[1:-1][(below == above) & (next_rate != rate)])
+        return np.where(below == above, next_rate - rate, 0.0)
+
+    def falls_within(self, left: float, right: float) -> FloatArray:
+        """Kinks from one place to another at which the bending stiffness begins to fall, or ceases to rise, in L."""
+        places = self.breaks[1:-1][self.stiffness_kink_sizes < 0.0]
+        return np.asarray(places[(places >= left) & (places <= right)])
 
     @cached_property
     def whole_weight(self) -> float:
@@ -243,9 +254,9 @@ def lower_half(sections: tuple[Section, ...]) -> tuple[Section, ...]:
         length = min(float(breaks[i + 1]), 0.5) - float(breaks[i])
         _, stiffness, weight, clearance, torsion = sections[i]
         part = length / float(breaks[i + 1] - breaks[i])
-        ratios = stiffness, weight, torsion
-        b, q, c = ratios if part == 1.0 else (_first_part(ratio, part) for ratio in ratios)
-        out.append((2.0 * length, b, q, clearance, c))
+        ratios = stiffness, weight, clearance, torsion
+        b, q, d, c = ratios if part == 1.0 else (_first_part(ratio, part) for ratio in ratios)
+        out.append((2.0 * length, b, q, d, c))
     return tuple(out)
 
 

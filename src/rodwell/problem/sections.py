@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 
 from rodwell.errors import InputError, checked_number
-from rodwell.problem.profile import MOST_VALUES, Ratio, extremes
+from rodwell.problem.profile import MOST_VALUES, Ratio, extremes, within
 
-Section = tuple[float, Ratio, Ratio, float, Ratio]
+Section = tuple[float, Ratio, Ratio, Ratio, Ratio]
 """Length in L, and ratios to the problem's data: bending stiffness, weight, clearance, torsional stiffness."""
 
 RATIOS = ("stiffness", "weight", "clearance", "torsion")
@@ -20,12 +21,21 @@ MOST_SECTIONS = 100_000
 ROUNDED = 1e-9
 """How far the lengths of sections may be from adding up to 1."""
 
+SMOOTH_STEP = (
+    (0.0, 0.0, 0.0, 0.0, 1.0 / 24.0),
+    (1.0 / 24.0, 1.0 / 6.0, 0.25, 1.0 / 6.0, -0.125),
+    (0.5, 2.0 / 3.0, 0.0, -1.0 / 3.0, 0.125),
+    (23.0 / 24.0, 1.0 / 6.0, -0.25, 1.0 / 6.0, -1.0 / 24.0),
+)
+"""Coefficients of the powers of u, from 0 to 1 in each of four equal parts, of the step from 0 to 1 whose derivative is
+the cubic B-spline: three times continuously differentiable."""
+
 PLAIN: tuple[Section, ...] = ((1.0, 1.0, 1.0, 1.0, 1.0),)
 """The one section of a uniform rod."""
 
 FORM = (
     "must be a sequence of (length, stiffness, weight, clearance, torsion), from s = 0; all but the length may be left "
-    f"out, and all but length and clearance may be 2 to {MOST_VALUES} values at evenly spaced places of the section"
+    f"out, and all but the length may be 2 to {MOST_VALUES} values at evenly spaced places of the section"
 )
 
 
@@ -76,7 +86,6 @@ def _checked(section: object, number: int) -> Section:
         _checked_ratio(f"section {number}, {name}", name, value)
         for name, value in zip(RATIOS, [*values[1:], *[1.0] * 4], strict=False)
     )
-    assert isinstance(d, float)
     return (length, b, q, d, c)
 
 
@@ -85,7 +94,7 @@ def _checked_ratio(field: str, name: str, value: object) -> Ratio:
     low = -LARGEST_RATIO if name == "weight" else SMALLEST_RATIO
     allowed = f"from {low:g} to {LARGEST_RATIO:g}, a ratio to the {name} of the problem"
     allowed += ", negative where it floats" if name == "weight" else ""
-    if name == "clearance" or isinstance(value, str) or not isinstance(value, Iterable):
+    if isinstance(value, str) or not isinstance(value, Iterable):
         return float(checked_number(field, value, low, LARGEST_RATIO, allowed))
     given = list(value)
     if not 1 <= len(given) <= MOST_VALUES:
@@ -110,7 +119,7 @@ def _checked_ratio(field: str, name: str, value: object) -> Ratio:
 def seen_from_s_1(sections: tuple[Section, ...]) -> tuple[Section, ...]:
     """Sections of the rod turned round."""
     return tuple(
-        (length, _turned(stiffness), _turned(weight), clearance, _turned(torsion))
+        (length, _turned(stiffness), _turned(weight), _turned(clearance), _turned(torsion))
         for length, stiffness, weight, clearance, torsion in sections[::-1]
     )
 
@@ -125,8 +134,48 @@ def refuse_sections(sections: tuple[Section, ...], why: str) -> None:
         raise InputError("sections", f"{len(sections)} of them", why)
 
 
-def sections_from(text: str, name: str = "sections") -> list[list[float | list[float]]]:
+def ramp(
+    length: float,
+    first: float,
+    last: float,
+    *,
+    stiffness: float | Sequence[float] = 1.0,
+    weight: float | Sequence[float] = 1.0,
+    torsion: float | Sequence[float] = 1.0,
+) -> tuple[Section, ...]:
+    """Four sections, each a quarter of ``length``, over which the clearance goes smoothly from a ratio to another.
+
+    Three times continuously differentiable, constant beyond: the wall need not exert forces at single places on the
+    rod that lies on it. Its slope is at most 8/3 of that of a straight line, in the middle, and the fourth derivative
+    768 (last − first)/length⁴.
+
+    Parameters
+    ----------
+    length
+        Of all four, in L.
+    first, last
+        Clearance ratios at the lower end (towards s = 0) and the upper end.
+    stiffness, weight, torsion
+        Ratios as of any section, constant or values along all of the length.
+    """
+    if last < first:  # the mirror image of the other one to the last bit
+        b, q, c = (one[::-1] if isinstance(one, Sequence) else one for one in (stiffness, weight, torsion))
+        return seen_from_s_1(ramp(length, last, first, stiffness=b, weight=q, torsion=c))
+    others = [tuple(map(float, one)) if isinstance(one, Sequence) else float(one)
+              for one in (stiffness, weight, torsion)]  # fmt: skip
+    u, out = np.linspace(0.0, 1.0, 5), []
+    for i, coefficients in enumerate(SMOOTH_STEP):
+        step = np.polynomial.polynomial.polyval(u, coefficients)
+        b, q, c = (within(one, 0.25 * i, 0.25 * (i + 1)) for one in others)
+        clearance: Ratio = tuple(map(float, first + (last - first) * step)) if first != last else float(first)
+        out.append((0.25 * length, b, q, clearance, c))
+    return tuple(out)
+
+
+def sections_from(text: str, name: str = "sections") -> list[Sequence[float | Sequence[float]]]:
     """Numbers of sections, ``length:stiffness:weight:clearance:torsion`` of each, parted by commas; a taper's by /.
+
+    A clearance ``a~b`` goes over from a to b smoothly: see :func:`rodwell.problem.clearances.ramp`.
 
     What they must be is checked with the problem that they make.
 
@@ -135,16 +184,26 @@ def sections_from(text: str, name: str = "sections") -> list[list[float | list[f
     InputError
         Naming the section that cannot be read; ``name`` is what the text is called.
     """
-    found = []
+    found: list[Sequence[float | Sequence[float]]] = []
     for number, section in enumerate(text.split(","), 1):
         try:
-            parts = [[float(one) for one in part.split("/")] for part in section.split(":")]
+            parts = section.split(":")
+            ends = [float(one) for one in parts[3].split("~")] if len(parts) > 3 and parts[3].count("~") == 1 else []
+            parts[3:4] = ["1"] if ends else parts[3:4]
+            numbers = [[float(one) for one in part.split("/")] for part in parts]
         except ValueError:
-            what = "must be length:stiffness[:weight[:clearance[:torsion]]], numbers, a taper's parted by /, sections "
-            what += "parted by commas"
+            what = "must be length:stiffness[:weight[:clearance[:torsion]]], numbers, a taper's parted by /, the ends "
+            what += "of a smooth clearance by ~, sections by commas"
             raise InputError(f"{name}, section {number}", section, what) from None
-        found.append([part if len(part) > 1 else part[0] for part in parts])
+        one = [part if len(part) > 1 else part[0] for part in numbers]
+        found += _ramped(one, *ends) if ends else [one]
     return found
+
+
+def _ramped(one: Sequence[Any], first: float, last: float) -> tuple[Section, ...]:
+    """The sections of one whose clearance goes over smoothly: length, stiffness, weight, and torsion if given."""
+    length, stiffness, weight, _, *torsion = one
+    return ramp(length, first, last, stiffness=stiffness, weight=weight, torsion=torsion[0] if torsion else 1.0)
 
 
 def sections_text(sections: Iterable[Sequence[Ratio]]) -> str:

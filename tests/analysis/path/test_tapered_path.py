@@ -69,10 +69,8 @@ def test_the_radial_moment_changes_along_a_taper() -> None:
     assert here[2] == pytest.approx((faster - slower) / (2.0 * h), rel=1e-9)
 
 
-def test_a_kink_of_the_stiffness_is_refused_where_the_wall_would_have_to_hold_it() -> None:
+def test_a_kink_of_the_stiffness_of_a_rod_that_arches_into_the_hole() -> None:
     kinked = rodwell.Problem(weight=15, sections=((0.4, 1.0), (0.6, (1.0, 0.5))))
-    with pytest.raises(rodwell.InputError, match=r"s = 0\.4"):
-        load_path(kinked, until=-90.0)
     arching = load_path(kinked.but(weight=0.0), until=-45.0, unload_to=-30.0, seeds=1)
     assert arching.reached
     assert all(state.state.certificate.passed for state in arching.at(-44.0))

@@ -10,6 +10,8 @@ import numpy as np
 
 from rodwell.analysis.beyond.carry import carried
 from rodwell.analysis.beyond.off_wall_branch import END, OffWallBranch, OffWallPoint
+from rodwell.analysis.off_wall.arrange import at_load
+from rodwell.analysis.off_wall.changes import changed, unheld
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.curved.refused import refuse_holes
@@ -49,8 +51,7 @@ def check_crosses(problem: Problem) -> None:
     ------
     InputError
         In a curved hole along an axis, out of the vertical plane or of a string, outside a cylinder or on top of it,
-        without lateral weight, of sections that taper or differ in stiffness or clearance, and at ends that are not
-        radially held.
+        without lateral weight, at steps of stiffness or of clearance, and at ends that are not radially held.
     """
     field = "off_wall"
     refuse_holes(problem)
@@ -65,7 +66,6 @@ def check_crosses(problem: Problem) -> None:
     if problem.untouched:
         raise InputError(field, True, "nothing presses the rod to the wall, which it leaves as it buckles: "
                          "rodwell.load_path (`rodwell path`) follows it")  # fmt: skip
-    problem.refuse_tapers("branches off the wall")
     problem.refuse_bridges("branches")
     if problem.rod.stiffness_steps.size:
         raise InputError(field, True, "a string leaves the wall at a step of its stiffness as it buckles: "
@@ -105,6 +105,9 @@ def beyond_lift_off(
         If no state off the wall was found that goes on where the branch on the wall lifts off.
     """
     start = carried(rod_in_hole(before.problem), before)
+    if start is not None and (places := unheld(start)):  # at kinks of the stiffness
+        off = changed(start, places)
+        start = None if off is None else at_load(off.state, before.force)
     if start is None:
         raise NotConvergedError("the state before lift-off was not found as one of a rod that may leave the wall")
 

@@ -70,6 +70,8 @@ def critical_curves(
         One for each mode at the start, with the double points and closest approaches as marks of both curves.
     """
     modes, rtol = checked_whole("modes", modes, 1, MOST_MODES), checked_rtol(rtol)
+    if problem.ramps:
+        problem.refuse_bridges("curves of critical loads")
     over, start, end = checked_range(problem, over, limits)
     split = all(one.symmetric for one in throughout(varied(problem, over, start), over))
     table = _LoadsOverRange(problem, over, modes, rtol, split)

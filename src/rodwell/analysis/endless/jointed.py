@@ -21,6 +21,7 @@ from scipy.optimize import brentq
 
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem
+from rodwell.problem.profile import extremes
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Value
 
@@ -128,8 +129,10 @@ def jointed_string(problem: Problem) -> JointedString:
 
 
 def _check(problem: Problem) -> None:
+    if problem.ramps:
+        problem.refuse_bridges("endless strings of joints")
     sections = problem.sections
-    clearance = [section[3] for section in sections]
+    clearance = [extremes(section[3])[0] for section in sections]
     what = "must be one period, from the middle of a tool joint to the middle of the next (joints = 1 in a case): "
     if len(sections) < 3 or min(clearance[1:-1]) <= max(clearance[0], clearance[-1]):
         shown = f"{len(sections)} of them"
@@ -148,7 +151,7 @@ def _check(problem: Problem) -> None:
 
 def _radius(problem: Problem) -> float:
     """Clearance of the tool joints."""
-    return problem.clearance * problem.sections[0][3]
+    return problem.clearance * extremes(problem.sections[0][3])[0]
 
 
 def _edge_force(problem: Problem) -> float:
@@ -156,7 +159,7 @@ def _edge_force(problem: Problem) -> float:
 
 
 def _room(problem: Problem) -> float:
-    return problem.clearance * min(section[3] for section in problem.sections[1:-1]) - _radius(problem)
+    return problem.clearance * min(extremes(section[3])[0] for section in problem.sections[1:-1]) - _radius(problem)
 
 
 def _along(length: float, stiffness: float, weight: float, compression: float) -> FloatArray:

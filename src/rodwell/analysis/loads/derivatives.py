@@ -41,7 +41,7 @@ class Sensitivity:
         Of a string, for each section from s = 0: ∂f by its ratios "stiffness" and "weight", and, of critical loads, by
         the place "upper_end" of the step above it (all but the last), with error estimates. Where a section tapers
         they are by "stiffness_factor" and "weight_factor", on all its values, at 1, and those by the places of its ends
-        are left out. Torsional stiffness does not enter: T₁ is a dead load.
+        are left out; of strings that bridge steps of the clearance also by "clearance". T₁ is a dead load.
     converged
         Whether the load, and the state that the derivatives are taken at, meet the tolerance asked for.
     elsewhere

@@ -115,6 +115,7 @@ def of_lying_rod(rod: LyingRod) -> tuple[Sensitivity, ...]:
 def of_critical_load(mode: Mode) -> Sensitivity:
     """Derivatives of a critical load, from its mode on both meshes."""
     problem = mode.problem
+    problem.refuse_bridges("derivatives of critical loads")
     names, by_mode = (PARAMETERS, _by_mode) if problem.hole is None else (inputs_of(problem), _in_curved_hole)
     fine, coarse = (by_mode(mode, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
     scales = {"weight": problem.weight or 1.0, "alpha": 90.0, "clearance": problem.clearance, "build": 1.0}

@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rodwell.analysis.off_wall.conditions import PatternedState, slope_at
+from rodwell.analysis.off_wall.conditions import PatternedState, kink_gap, slope_at
 from rodwell.numerics.stretches.carry import Sampler
+from rodwell.physics.off_wall import kinks
 from rodwell.quantities.arrays import FloatArray
 
 Bump = Callable[[FloatArray], FloatArray]
@@ -118,6 +119,18 @@ def at_step(state: PatternedState, stretch: int, s: float) -> StepGap:
 
     left, right = sorted((origin, origin + sense * length))
     return StepGap(left, right, bump)
+
+
+def at_kink(state: PatternedState, s: float) -> StepGap:
+    """The gap around a kink of the stiffness at which the wall would have to pull: see ``kinks``."""
+    problem, (length, shortest, push) = state.problem, kink_gap(state, s)
+    half = 0.5 * max(length, shortest)
+    stiffness = float(problem.rod.stiffness(np.array([s]))[0])
+
+    def bump(places: FloatArray) -> FloatArray:
+        return kinks.rises(half, push, stiffness, s, places) / problem.clearance
+
+    return StepGap(s - half, s + half, bump)
 
 
 def sides(s: float) -> FloatArray:

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.off_wall.conditions import OPENS, PatternedState, conditions
+from rodwell.analysis.off_wall.conditions import OPENS, UNHELD, PatternedState, at_steps, conditions
 from rodwell.analysis.off_wall.curved.model import RodOffCurvedWall
 from rodwell.analysis.off_wall.curved.own_places import in_fixed_axes, weight_axes, with_own_places
 from rodwell.analysis.off_wall.measured import position
@@ -140,8 +140,8 @@ def _with_loads(
 
 
 def _parts(state: PatternedState) -> tuple[FloatArray, FloatArray, BoolArray]:
-    """Stretches, parted at edges: from where to where, and whether in contact, (k,) each."""
-    bounds = np.union1d(state.bounds, state.pattern.edges)
+    """Stretches, parted at edges and kinks: from where to where, and whether in contact, (k,) each."""
+    bounds = np.union1d(state.bounds, [*state.pattern.edges, *(s for s, _ in state.kink_forces)])
     owner = np.searchsorted(state.bounds, bounds[:-1], side="right") - 1
     return bounds[:-1], bounds[1:], np.asarray(state.touching)[owner]
 
@@ -186,6 +186,7 @@ def _penetration(state: PatternedState) -> float:
 
 def _least(state: PatternedState) -> tuple[float, float]:
     """Least concentrated force, and least contact force per length."""
-    forces = state.problem.clearance * np.array([force for _, force, _ in state.point_forces])
+    unseen = {one.s for one in at_steps(state) if one.kind == UNHELD and one.value >= 0.0}  # of gaps that do not count
+    forces = state.problem.clearance * np.array([force for s, force, _ in state.point_forces if s not in unseen])
     pressing = [one.value for one in conditions(state) if one.kind == OPENS]
     return float(np.min(forces, initial=np.inf)), float(min(pressing, default=np.inf))

@@ -33,6 +33,7 @@ from rodwell.analysis.off_wall.steps import (
     Plan,
     cross,
     edge_at,
+    kinked,
     length_with_slope,
     open_at,
     release,
@@ -63,7 +64,8 @@ HALVINGS, ROUNDS = 5, 3
 NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "contact_line",
          SPLITS: "contact_splits", GROWS_AT_END: "contact_line", UNHELD: "gap_opens", CROSSES: "",
          LEAVES_EDGE: "contact_lost"}  # fmt: skip
-"""What a change is called along a path; that an end of a stretch passes a step of a string is no event."""
+"""What a change is called along a path. That an end of a stretch passes a step of a string is no event, nor that a gap
+at a kink of the stiffness has become long enough to count: it has been there since the rod buckled."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -92,7 +94,8 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
             if found is None:
                 continue
             hurt = [one for one in conditions(found) if one.value < 0.0 and not _just_now(one)]
-            last = Changed(found, _growing(first, found, plan), NAMES[first.kind])
+            name = "" if kinked(state, first.s) and first.kind == UNHELD else NAMES[first.kind]
+            last = Changed(found, _growing(first, found, plan), name)
             if not hurt or first.kind not in (OPENS, GROWS, SPLITS, GROWS_AT_END):
                 return last
             spots = [one.s for one in hurt if one.kind == OPENS] or spots
@@ -103,6 +106,11 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
             break
         vanished += following
     return last if first.kind in (GROWS, GROWS_AT_END) else None
+
+
+def unheld(state: PatternedState) -> list[Condition]:
+    """Where a rod in contact leaves the wall, since nothing holds it radially there."""
+    return [one for one in conditions(state) if one.kind == UNHELD and one.value < 0.0]
 
 
 def _edited(

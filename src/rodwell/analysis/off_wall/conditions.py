@@ -7,7 +7,7 @@ Where one of them vanishes along a path the pattern of contact changes:
 * the gap beside a point of contact opens like a parabola, r″ < 0: else the contact grows to a stretch,
 * at a radially held end the free rod curves inwards: else contact grows from the end,
 * at an end that is not radially held a rod in contact does not turn around the wall, since nothing bears the radial
-  moment that this takes: else it leaves the wall there; nor where its stiffness has a step,
+  moment that this takes: else it leaves the wall there; nor where its stiffness has a step, or a kink that would pull,
 * the rod nowhere reaches the wall within a free stretch: else it touches there,
 * ends of stretches and points of contact keep off steps of a string: else they pass them, and elements with them,
 * the edge of a narrower part of the hole, where the rod touches it, pushes: else the rod leaves it; and so does the
@@ -30,6 +30,7 @@ from rodwell.analysis.off_wall.pattern import Elements, Pattern
 from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIUS, Shape
 from rodwell.numerics.stretches.minima import CLOSER, lowest
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
+from rodwell.physics.off_wall import kinks
 from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray, IntArray
@@ -120,7 +121,7 @@ class PatternedState:
     def point_forces(self) -> list[tuple[float, float, str]]:
         """Places and outward forces of concentrated contact, from s = 0.
 
-        At "end"s of stretches, "point"s, "edge"s, and loose ends of the rod, "tip"s.
+        At "end"s of stretches, "point"s, "edge"s, "kink"s of the stiffness, and loose ends of the rod, "tip"s.
         """
         kinds = ["point" if self.pattern.is_point(i) else "end" for i in range(self.pattern.breaks)]
         found = list(zip(map(float, self.solved.shape.breaks), map(float, self.solved.forces), kinds, strict=True))
@@ -128,7 +129,17 @@ class PatternedState:
             (s, float(force), "tip" if s in (0.0, 1.0) else "edge")
             for s, force in zip(self.pattern.edges, self.edge_forces, strict=True)
         ]
+        found += [(s, force, "kink") for s, force in self.kink_forces]
         return sorted(found)
+
+    @cached_property
+    def kink_forces(self) -> list[tuple[float, float]]:
+        """Places and outward forces at kinks of the stiffness in contact, of a rod that is not planar."""
+        problem, bounds = self.problem, self.solved.shape.breaks
+        places, sizes = problem.rod.breaks[1:-1], problem.rod.stiffness_kink_sizes * (not self.pattern.planar)
+        on = np.array(self.pattern.touching)[np.searchsorted(bounds, places)]
+        return [(float(places[k]), kink_force(self, float(places[k])))
+                for k in np.flatnonzero(on & (sizes != 0.0))]  # fmt: skip
 
     @cached_property
     def _starts(self) -> list[int]:
@@ -171,6 +182,9 @@ def at_steps(state: PatternedState) -> list[Condition]:
             s = float(rod.breaks[1 + k])
             if state.pattern.touching[i] and below[k] != above[k]:
                 found.append(Condition(UNHELD, 2 + k, NO_SLOPE - abs(slope_at(shape, s)), s))
+            if state.pattern.touching[i] and rod.stiffness_kink_sizes[k] < 0.0:
+                length, shortest, _ = kink_gap(state, s)
+                found.append(Condition(UNHELD, 2 + k, shortest - length, s))
         if inner:  # the ends of the stretch, upwards to its first step and downwards to its last
             first, last = float(rod.breaks[1 + inner.start]), float(rod.breaks[inner.stop])
             for number, s, end in ((2 * i - 1, first, state.bounds[i]), (2 * i, last, state.bounds[i + 1])):
@@ -178,6 +192,21 @@ def at_steps(state: PatternedState) -> list[Condition]:
                     found.append(Condition(CROSSES, number, abs(float(end) - s) - BESIDE_STEP, s))
         section += len(pieces) - 1
     return found
+
+
+def kink_force(state: PatternedState, s: float) -> float:
+    """Outward contact force over Δ at a kink of the stiffness in contact; negative: the wall would have to pull."""
+    rod = state.problem.rod
+    k = int(np.searchsorted(rod.breaks[1:-1], s))
+    return float(rod.stiffness_kink_sizes[k] * rod.clearance.coefficients[k, 0] * slope_at(state.solved.shape, s) ** 2)
+
+
+def kink_gap(state: PatternedState, s: float) -> tuple[float, float, float]:
+    """Length in L of the gap at a kink still in contact, that from which on it counts, the push beside it in B/L³."""
+    problem, node = state.problem, int(np.searchsorted(state.solved.shape.places, s))
+    push = -float(np.mean(pressure_on(state, np.array([node - 1, node]))(np.array([[1.0], [0.0]]))))
+    length = kinks.length(-problem.clearance * kink_force(state, s), push)
+    return length, kinks.shortest(problem.clearance, float(problem.rod.stiffness(np.array([s]))[0]), push), push
 
 
 def slope_at(shape: Shape, s: float) -> float:

@@ -22,6 +22,7 @@ from rodwell.analysis.off_wall.happening import (
     unresolved,
 )
 from rodwell.analysis.off_wall.soft import jumped, stopped, with_ends_of
+from rodwell.analysis.off_wall.steps import kinked
 from rodwell.analysis.off_wall.vanishing import FARTHEST, SEARCH, about_to_vanish, opened_again, shortened, unbalanced
 from rodwell.analysis.off_wall.within import Step, driven_rate, first_event
 from rodwell.numerics.stretches.walk import (
@@ -260,9 +261,9 @@ class _Walker:
         at_once = together(there, [condition], 0, strict=False)
         places = tuple(sorted(one.s for one in at_once))
         event = PathEvent(after.name, there, places, after.grows, together=at_once, along=along)
-        self.result.events.append(event)
+        self.result.events += [event] if event.kind else []
         after = Changed(there, after.grows, after.name)
-        if condition.kind == UNHELD:
+        if condition.kind == UNHELD and not kinked(there, condition.s):
             self._open_again(event, after)
         else:
             self._enter(after)

@@ -70,7 +70,9 @@ class PointForce:
     """A concentrated contact force, from the wall on the rod, in B/L², at a place in L.
 
     ``kind``: "point", a point of contact with gaps on both sides, "end", an end of a stretch in contact, "edge", the
-    edge of a narrower part of the hole, or "tip", a loose end of the rod that touches the wall.
+    edge of a narrower part of the hole, "tip", a loose end of the rod that touches the wall, or "kink", one of the
+    stiffness within a stretch in contact; there a force below 0 stands for a gap that is too short to count:
+    :mod:`rodwell.physics.off_wall.kinks`.
     """
 
     s: Value

@@ -14,8 +14,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rodwell.analysis.off_wall.bumps import Bump, at_step, beside, pressure_at, sides
+from rodwell.analysis.off_wall.bumps import Bump, at_kink, at_step, beside, pressure_at, sides
 from rodwell.analysis.off_wall.conditions import BESIDE_STEP, Condition, PatternedState
+from rodwell.physics.off_wall.kinks import shortest
 from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
 
@@ -28,6 +29,9 @@ ROOM = 0.9
 
 FIRST_WITH_SLOPE, SLIGHT = 2e-3, 0.1
 """Least length of a gap that opens with the slope, in L; less where that takes a slope φ′ of more than the second."""
+
+AT_KINK = 1e-9
+"""Distance in L within which a place is that of a kink."""
 
 SHARE = 0.1
 """Part of a gap that opens at a step of the weight on the side where contact still pushes."""
@@ -71,6 +75,26 @@ def closes_with_slope(state: PatternedState, stretch: int) -> bool:
     return not set(OFF_WALL_ENDS).isdisjoint(ends) or bool(np.any((steps > left) & (steps < right)))
 
 
+def around_kink(state: PatternedState, stretch: int) -> float | None:
+    """The length in L below which a free stretch is a gap at a kink of the stiffness that counts as closed, or None."""
+    left, right = state.bounds[stretch : stretch + 2]
+    problem = state.problem
+    place = problem.rod.falls_within(left, right)
+    if place.size != 1 or closes_with_slope(state, stretch):
+        return None
+    touching = state.pattern.touching
+    beside = [(i, s) for i, s in ((stretch - 1, left), (stretch + 1, right)) if 0 <= i < len(touching) and touching[i]]
+    if not beside:
+        return None
+    push = -float(np.mean([pressure_at(state, i, np.array([s]))[0] for i, s in beside]))
+    return shortest(problem.clearance, float(problem.rod.stiffness(place)[0]), push)
+
+
+def kinked(state: PatternedState, s: float) -> bool:
+    """Whether a place is a kink of the stiffness at which the wall would have to pull."""
+    return bool(state.problem.rod.falls_within(s - AT_KINK, s + AT_KINK).size)
+
+
 def length_with_slope(problem: Problem, slope: float) -> float:
     """About how long the gap is, in L, over which a rod with a slope φ′ leaves the wall at its end: 2|φ′|√(Δ/wₗ)."""
     return 2.0 * abs(slope) * float(np.sqrt(problem.clearance / max(problem.lateral_weight, 1e-3)))
@@ -112,7 +136,7 @@ def release(plan: Plan, condition: Condition) -> None:
     """The rod leaves the wall around a step of its stiffness, or around several that are close together."""
     s, state = condition.s, plan.state
     i = int(np.searchsorted(state.bounds, s)) - 1
-    gap = at_step(state, i, s)
+    gap = at_kink(state, s) if kinked(state, s) else at_step(state, i, s)
     left = max(gap.left, s - ROOM * (s - float(state.bounds[i])))
     right = min(gap.right, s + ROOM * (float(state.bounds[i + 1]) - s))
     plan.bumps.append(gap.bump)

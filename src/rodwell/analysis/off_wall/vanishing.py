@@ -28,7 +28,7 @@ from rodwell.analysis.off_wall.conditions import (
     watched,
 )
 from rodwell.analysis.off_wall.state import contact_state
-from rodwell.analysis.off_wall.steps import closes_with_slope, length_with_slope, shortest_with_slope
+from rodwell.analysis.off_wall.steps import around_kink, closes_with_slope, length_with_slope, shortest_with_slope
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
@@ -40,6 +40,9 @@ SHORT_GAP = 0.3
 
 SEARCH, FARTHEST = 1e-4, 0.4
 """First and longest step in which the place is sought where a short stretch has vanished."""
+
+LONGER = 1.3
+"""Gaps at kinks of the stiffness are about to close when they are so many times as long as when they do."""
 
 AS_SHORT = 1.05
 """Stretches longer by no more than this factor vanish together."""
@@ -66,6 +69,8 @@ def _least(state: PatternedState, i: int, on: bool) -> float:
         return FIRST_CONTACT
     if closes_with_slope(state, i):
         return shortest_with_slope(state.problem)
+    if (least := around_kink(state, i)) is not None:
+        return LONGER * least
     beside_line = any(touching[k] for k in (i - 1, i + 1) if 0 <= k < len(touching))  # that it can close up to
     return SHORT_GAP / wavenumber(state.model, state.load) if beside_line else 0.0
 
@@ -99,14 +104,16 @@ def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Con
         return None
     on, ends = state.pattern.touching[first], first in (0, len(state.pattern.touching) - 1)
     merged = state.pattern.between_points(first)
-    closed = UNHELD if closes_with_slope(state, first) else OPENS
+    at_kink = not on and around_kink(state, first) is not None
+    closed = UNHELD if at_kink or closes_with_slope(state, first) else OPENS
     kind = (GROWS_AT_END if ends else GROWS) if on or merged else closed
     name = ("contact_lost" if ends else "contact_point") if on else "contacts_merge" if merged else "gap_closes"
+    name = "" if at_kink else name
     near = [one for one in conditions(found) if one.kind == kind]
     if not near:
         return None
     condition = min(near, key=lambda one: abs(one.s - where))
-    if kind == UNHELD:
+    if kind == UNHELD and not at_kink:
         return Changed(found, _turned_over(found.solved, condition.s), name), condition
     return Changed(found, lambda one: watched(condition, PatternedState(new, found.elements, one)), name), condition
 

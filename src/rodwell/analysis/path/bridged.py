@@ -21,6 +21,7 @@ from rodwell.numerics.stretches.chain import ANGLE, ANGLE_RATE
 from rodwell.numerics.stretches.newton import softest
 from rodwell.problem.problem import Problem
 from rodwell.problem.words import where_it_bridges
+from rodwell.quantities.tolerance import LARGEST_FORCE
 
 FARTHEST = 10.0
 """End force up to which a string is compressed in search of its buckling, in that of a clamped rod of its stiffest and
@@ -46,7 +47,7 @@ def farthest(problem: Problem) -> float:
     b, q = float(np.max(problem.rod.ranges["stiffness"])), float(np.max(problem.rod.sizes_of_weight))
     narrow = problem.clearance * float(np.min(problem.rod.ranges["clearance"]))
     of_bed = 2.0 * float(np.sqrt(b * q * problem.lateral_weight / narrow))
-    return -FARTHEST * (4.0 * np.pi**2 * b + of_bed + problem.weight)
+    return max(-FARTHEST * (4.0 * np.pi**2 * b + of_bed + problem.weight), -LARGEST_FORCE)
 
 
 def bridging(model: RodInHole, until: float, rtol: float, progress: Callable[[float], str | None] | None) -> Walked:

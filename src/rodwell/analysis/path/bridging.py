@@ -102,8 +102,14 @@ def _mended(state: PatternedState) -> PatternedState | None:
 
 
 def at_top(model: RodInHole, load: float) -> float | None:
-    """Where the beam reaches the upper side of the hole at a load, which is not computed; None where it does not."""
-    places, height = _beam(model, load)
+    """Where the beam reaches the upper side of the hole at a load, which is not computed; None where it does not.
+
+    None too where the beam was not found: of more than some hundred sections its stiffness is lost in round-off.
+    """
+    try:
+        places, height = _beam(model, load)
+    except np.linalg.LinAlgError:
+        return None
     over = height[::2] - _narrowest(model.problem, places)
     k = int(np.argmax(over))
     return float(places[k]) if over[k] > 0.0 else None

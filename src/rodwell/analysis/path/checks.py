@@ -35,7 +35,7 @@ def checked_problem(problem: Problem) -> None:
     """Raise if a rod has no load path here, with the reason."""
     refuse_holes(problem)
     if not problem.bridges:
-        _refuse_kinks(problem)
+        problem.refuse_bridges("load paths off the wall")  # also of clearances that vary without steps
     if problem.outside:
         raise InputError(
             "outside", True, "a rod outside a cylinder leaves it for good: there is no path beyond lift-off"
@@ -56,22 +56,6 @@ def checked_problem(problem: Problem) -> None:
         raise InputError(
             "ends", "-".join(problem.ends), "nothing presses the loose end to the wall, where a path begins: "
             "give the rod some lateral weight, or take ball or free",
-        )  # fmt: skip
-
-
-def _refuse_kinks(problem: Problem) -> None:
-    """Raise where a taper begins or ends within a rod that the weight presses to the wall, without a step.
-
-    A buckled rod in contact there needs a force from the wall, [b′] ω₃, at a single place: where the stiffness begins
-    to fall the wall would have to pull, and the rod leaves it over a short stretch around the kink.
-    """
-    kinks = problem.rod.stiffness_kinks
-    if kinks.size and problem.lateral_weight != 0.0:
-        raise InputError(
-            "sections", f"a taper that begins or ends at s = {kinks[0]:g}",
-            "must go on smoothly, or begin with a step of the stiffness: at a kink the wall would have to hold the "
-            "buckled rod by a force at a single place, which load paths off the wall do not have; let one taper reach "
-            "from end to end (up to five values), or leave the weight out",
         )  # fmt: skip
 
 

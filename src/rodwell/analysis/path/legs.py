@@ -14,6 +14,7 @@ from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.resolve import UNKNOWN, resolved_event
 from rodwell.analysis.off_wall.soft import with_contact
 from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, contact_state
+from rodwell.analysis.off_wall.steps import around_kink
 from rodwell.analysis.path.events import (
     BRANCH_POINT,
     CRITICAL,
@@ -143,9 +144,10 @@ def _tell(out: Walked, path: Followed, how: How) -> None:
 
 
 def _complete(event: PathEvent) -> bool:
-    """Whether contact is complete on one side of an event of a gap."""
+    """Whether contact is complete on one side of an event of a gap, but for gaps at kinks of the stiffness."""
     if not event.state.model.soft:
-        return event.state.pattern.full
+        state = event.state
+        return all(on or around_kink(state, i) is not None for i, on in enumerate(state.pattern.touching))
     return event.between is not None and any(one.everywhere for one in event.between)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -17,11 +17,10 @@ from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.path.barrier import Barrier, barrier
 from rodwell.analysis.path.checks import checked_value
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint, PathState
-from rodwell.analysis.path.plain import found_or_why
 from rodwell.analysis.path.straightening import straight_state
 from rodwell.analysis.path.words import sentences
 from rodwell.analysis.state.fields import GRID
-from rodwell.errors import InputError, NotConvergedError
+from rodwell.errors import InputError, NotConvergedError, RodwellError
 from rodwell.faces import Shown, drawn, face
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -217,7 +216,7 @@ class LoadPath(Shown):
         """Plain data, for JSON, with the states at the end forces ``at``, and the barriers at others."""
         out = {
             "events": [{**one.as_dict(), **self._driven(one)} for one in self.events],
-            "states": found_or_why(at, lambda value: [one.as_dict() for one in self.at(value)]),
+            "states": _found_or_why(at, lambda value: [one.as_dict() for one in self.at(value)]),
             "reached": self.reached,
             "ended_because": self.ended_because,
             "control": self.control,
@@ -226,7 +225,7 @@ class LoadPath(Shown):
             "wall_stiffness": self.wall_stiffness if math.isfinite(self.wall_stiffness) else None,
         }
         if barriers:
-            out["barriers"] = found_or_why(barriers, lambda value: [self.barrier(value).as_dict()])
+            out["barriers"] = _found_or_why(barriers, lambda value: [self.barrier(value).as_dict()])
         return out
 
     def _driven(self, event: PathPoint) -> dict[str, Any]:
@@ -274,3 +273,14 @@ def _straight(leg: Leg, value: float, control: Control) -> bool:
 
 def _passes(leg: Leg, value: float, control: Control) -> bool:
     return _straight(leg, value, control) or bool(leg.near(value, control))
+
+
+def _found_or_why(values: Sequence[float], found: Callable[[float], list[dict[str, Any]]]) -> list[dict[str, Any]]:
+    """What is found at values of what is controlled, in order, or why nothing is."""
+    out = []
+    for value in values:
+        try:
+            out += found(value)
+        except RodwellError as error:
+            out.append({"force": value, "reached": False, "why": str(error)})
+    return out

@@ -12,8 +12,8 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.off_wall.arrange import arranged
-from rodwell.analysis.off_wall.changes import changed, growing_direction
-from rodwell.analysis.off_wall.conditions import UNHELD, PatternedState, conditions
+from rodwell.analysis.off_wall.changes import changed, growing_direction, unheld
+from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
@@ -88,7 +88,7 @@ def on_wall(
     for i, amplitude in amplitudes:
         if amplitude >= ENOUGH:
             start = carried(model, branch[i])
-            if start is not None and start.solved.index == 0 and before(start):
+            if start is not None and start.solved.index == 0 and before(start) and not unheld(start):
                 snap = _stable_at(model, branch, float(force[0])) if first > 1 else None
                 if first > 1 and snap is None:
                     return None
@@ -127,7 +127,7 @@ def released(problem: Problem, mirror: bool, rtol: float) -> PatternedState | No
         kept = carried(model, branch[i]) if amplitude >= BENT else None
         if kept is None:
             continue
-        after = changed(kept, [one for one in conditions(kept) if one.kind == UNHELD])
+        after = changed(kept, unheld(kept))
         if after is None or after.state.solved.index:
             continue
         if all(one.value > 0.0 for one in conditions(after.state)):

@@ -7,17 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rodwell.analysis.discrete.family import given_of, parameters, spline_ends
-from rodwell.analysis.discrete.meshes import linear_space, wkb_load
+from rodwell.analysis.straight.kept import factors_of, loads_on_mesh, starting_space
 from rodwell.analysis.straight.lying_loads import loads_of_lying_rod, value_of
 from rodwell.analysis.straight.multiple import close_to_last, equal_to, told_apart
+from rodwell.analysis.straight.ramps import loads_on_ramps, steepest
 from rodwell.analysis.straight.refining import refined_loads
 from rodwell.analysis.straight.without_wall import LoadsWithoutWall, WallTouch, loads_without_wall
-from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.errors import InputError, checked_whole
 from rodwell.faces import Shown, drawn
-from rodwell.numerics.equilibria import eigen
 from rodwell.numerics.splines.spaces import SplineSpace
-from rodwell.physics.on_wall.linear import second_variation
+from rodwell.problem.clearances import refuse_bridging
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_rtol
@@ -137,6 +136,11 @@ class CriticalLoads(tuple[Mode, ...], Shown):
         assert touch is not None
         return touch
 
+    @property
+    def slope_squared(self) -> float:
+        """(max abs(Δ′))², the order of what is left out of these loads, as a part of them; 0 if Δ is constant."""
+        return steepest(self[0].problem) ** 2
+
     def plot(self, ax: Axes | None = None, *, scales: Scales | None = None, most: int = 4) -> Axes:
         """Draw the first ``most`` modes y(s), each scaled to a largest deflection of 1; return the axes.
 
@@ -162,29 +166,35 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     Returns
     -------
     CriticalLoads
-        Modes in the order in which they are met as compression grows: force falling, tension positive.
+        Modes in the order in which they are met as compression grows: force falling, tension positive. Where the
+        clearance varies, to the order of its slope's square, those at which the wall presses the rod everywhere.
 
     Raises
     ------
     InputError
-        If ``count`` or ``rtol`` is out of range, or ``problem.turns`` is not 0 (a coiled rod is not straight).
+        If ``count`` or ``rtol`` is out of range, ``problem.turns`` is not 0 (a coiled rod is not straight), or the wall
+        would have to pull the rod where the clearance varies.
     NotConvergedError
         If the tolerance cannot be met.
     """
     rtol, count = checked_rtol(rtol), checked_whole("modes", count, 1, MOST_MODES)
-    problem.refuse_bridges("critical loads of the straight rod")
+    refuse_bridging(problem, "critical loads of the straight rod")
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
-    if problem.hole is not None:
+    if problem.hole is not None or problem.ramps:
         return CriticalLoads(_lying(problem, count, rtol))
     found = refined_loads(
-        problem, _starting_space(problem, count), count, rtol, lambda space, start: _solve(problem, space, count, start)
+        problem,
+        starting_space(problem, count),
+        count,
+        rtol,
+        lambda space, start: loads_on_mesh(problem, space, count, start),
     )
-    finer, space, factors = found.space, found.coarse_space, _factors(problem, found.space)
+    finer, space, factors = found.space, found.coarse_space, factors_of(problem, found.space)
     few = close_to_last(found.loads, count)
     better, shapes = told_apart(finer, factors, found.loads[:few], found.vectors, symmetric=problem.symmetric)
     _, vectors = told_apart(
-        space, _factors(problem, space), found.coarse_loads[:few], found.coarse_vectors, symmetric=problem.symmetric
+        space, factors_of(problem, space), found.coarse_loads[:few], found.coarse_vectors, symmetric=problem.symmetric
     )
     error = np.append(found.errors, np.full(few - count, found.errors[-1]))
     return CriticalLoads(
@@ -216,14 +226,14 @@ def tensile_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> Cr
     InputError, NotConvergedError
         As :func:`critical_loads` does.
     """
-    problem.refuse_bridges("critical loads of the straight rod")
+    refuse_bridging(problem, "critical loads of the straight rod")
     rtol, count = checked_rtol(rtol), checked_whole("modes", count, 1, MOST_MODES)
     return CriticalLoads(() if problem.hole is None else _lying(problem, count, rtol, tension=True))
 
 
 def _lying(problem: Problem, count: int, rtol: float, tension: bool = False) -> list[Mode]:
-    """Modes of a rod that lies along a curved hole."""
-    found = loads_of_lying_rod(problem, count, rtol, tension)
+    """Modes of a rod that lies along a curved hole, or on a wall whose clearance varies."""
+    found = loads_on_ramps(problem, count, rtol) if problem.ramps else loads_of_lying_rod(problem, count, rtol, tension)
     if found is None:
         return []
     loads = [value_of(found, i) for i in range(len(found.vectors))]
@@ -233,45 +243,6 @@ def _lying(problem: Problem, count: int, rtol: float, tension: bool = False) -> 
               (found.coarse_space, found.coarse_vectors[i]))
         for i, shape in enumerate(found.vectors)
     ]  # fmt: skip
-
-
-def _factors(problem: Problem, space: SplineSpace) -> FloatArray:
-    """Factors of v², v′², v″² in the second variation at the quadrature points, (3, m)."""
-    given = given_of(problem.rod)(space.points) if problem.sections else None
-    return second_variation(space.points, parameters(problem), given)
-
-
-def _starting_space(problem: Problem, count: int) -> SplineSpace:
-    """Mesh for the first ``count`` modes, with unknowns enough for the block of vectors that looks for them."""
-    space = linear_space(problem, count)
-    while space.size < 3 * count + 8:
-        space = space.refined()
-    return space
-
-
-def _solve(
-    problem: Problem, space: SplineSpace, count: int, start: tuple[FloatArray, FloatArray] | None
-) -> tuple[FloatArray, FloatArray]:
-    """λ = −F, rising, and full coefficient vectors (k, size); k ≥ ``count``, the first ``count`` converged."""
-    factors = _factors(problem, space)
-    held = spline_ends(problem).among(space.size)
-    stiffness, gram = held.free_part(space.form(factors)), held.free_part(space.slope_gram)
-
-    def full(block: FloatArray) -> FloatArray:
-        return np.array([held.spread(free) for free in block])
-
-    def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
-        return space.grams(factors, full(block))
-
-    # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
-    below = -problem.heaviest + 4.0 * float(min(np.min(factors[0]), 0.0)) / np.pi**2 - 1.0
-    guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, held.free]))
-    try:
-        near = wkb_load(problem, 0.5), wkb_load(problem, eigen.block_size(count) + 1.0)
-        values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below, guess, near)
-    except eigen.EigenError as error:
-        raise NotConvergedError(f"critical loads: {error}") from None
-    return values, full(vectors)
 
 
 def _sense(problem: Problem, space: SplineSpace, vector: FloatArray) -> float:

@@ -114,7 +114,7 @@ class _Pencil:
             return self.gram(whole, block), self.gram(slope, block)
 
         gram = size * self.slopes
-        values, vectors = eigen.lowest(band, gram, quadrature, count, _below_all(band, gram), None)
+        values, vectors = eigen.lowest(band, gram, quadrature, count, below_all(band, gram), None)
         return values[:count], vectors[:count]
 
     def along(self, vector: FloatArray) -> tuple[float, float]:
@@ -123,7 +123,7 @@ class _Pencil:
         return k, g
 
 
-def _below_all(stiffness: FloatArray, gram: FloatArray) -> float:
+def below_all(stiffness: FloatArray, gram: FloatArray) -> float:
     """A negative number below all eigenvalues of K v = λ G v."""
     below = -1.0
     while eigen.count_below(stiffness, gram, below) > 0:
@@ -260,7 +260,7 @@ def _in_a_block(
     guess = None
     if start is not None:
         guess = -abs(step) / np.abs(start[0] - rest), np.ascontiguousarray(start[1][:, pencil.held.free])
-    values, vectors = eigen.lowest(stiff, gram, quadrature, count, _below_all(stiff, gram), guess, right=stiff)
+    values, vectors = eigen.lowest(stiff, gram, quadrature, count, below_all(stiff, gram), guess, right=stiff)
     return rest - step / values, pencil.full(vectors)
 
 

@@ -17,6 +17,7 @@ from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
 from rodwell.errors import RodwellError
 from rodwell.problem.ends import OFF_WALL_ENDS
+from rodwell.problem.profile import extremes
 from rodwell.problem.words import where_it_bridges
 from rodwell.quantities.value import Value
 from rodwell.strength.off_wall import RodOffWall
@@ -67,7 +68,7 @@ class Bridged:
         """What has the edge that the string touches at a place, s/L, of a step."""
         pairs = self.case.pairs
         below, above = min(pairwise(pairs), key=lambda two: abs(two[1].start - place))
-        narrow = below if below.clearance < above.clearance else above
+        narrow = below if extremes(below.clearance) < extremes(above.clearance) else above
         if below.member is above.member or narrow.member is None:
             return PART_OF_HOLE
         if narrow.member.tool_joint:

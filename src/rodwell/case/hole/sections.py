@@ -11,6 +11,8 @@ from rodwell.case.hole.lie import depths_of
 from rodwell.case.hole.schema import Hole
 from rodwell.case.kinds import InnerLength, Length, Name, SectionInput, _key
 from rodwell.errors import InputError
+from rodwell.problem.profile import Ratio
+from rodwell.problem.sections import ramp
 
 SAME_LENGTH = 1e-6
 """Relative difference of lengths that counts as none: feet become metres by rounding."""
@@ -36,17 +38,27 @@ class HoleSectionInput(SectionInput):
         "`hole.from`, or where the first section begins", "1200 m", alias="from",
     )  # fmt: skip
     to: Length | None = _key(None, "measured depth where it ends; sections may reach beyond the rod", "1900 m")
-    diameter: Length | None = _key(None, "inner diameter; `hole.diameter` if not given", "6.094 in")
+    diameter: Length | None = _key(
+        None, "inner diameter, at the lower end where `diameter_at_top` is another; `hole.diameter` if not given",
+        "6.094 in",
+    )  # fmt: skip
+    diameter_at_top: Length | None = _key(
+        None, "inner diameter at the upper end, to which it goes over smoothly, without steps and kinks at either end; "
+        "`diameter` if not given", "7 in",
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class HolePart:
-    """A part of a hole: what it is called, from where to where it goes, s/L, and its inner diameter in m."""
+    """A part of a hole: what it is called, from where to where it goes, s/L, and its inner diameter in m.
+
+    The diameter is a number, or values at evenly spaced places from the lower end, of which it is the polynomial.
+    """
 
     name: str
     start: float
     end: float
-    diameter: float | None
+    diameter: Ratio | None
 
 
 def check_parts(parts: object) -> None:
@@ -94,8 +106,14 @@ def parts_of(given: Sequence[HoleSectionInput], hole: Hole, length: float) -> tu
         diameter = one.diameter or hole.diameter
         if diameter is None:
             raise InputError(f"{called(number, one.name)}.diameter", None, "is missing: give it here or in [hole]")
-        if above > below:
-            out.append(HolePart(called(number, one.name), below, above, diameter))
+        name, at_top = called(number, one.name), one.diameter_at_top or diameter
+        if above > below and at_top == diameter:
+            out.append(HolePart(name, below, above, diameter))
+        elif above > below:
+            quarter = 0.25 * (above - below)
+            values = [section[3] for section in ramp(above - below, diameter, at_top)]
+            out += [HolePart(name, below + i * quarter, above if i == 3 else below + (i + 1) * quarter, values[i])
+                    for i in (3, 2, 1, 0)]  # fmt: skip
     return tuple(out[::-1])
 
 
@@ -149,6 +167,13 @@ def _by_depth(given: Sequence[HoleSectionInput], hole: Hole, length: float) -> l
             "hole.section", None, f"goes from {depths[0]:.6g} m to {depths[-1]:.6g} m, and the rod lies from "
             f"{top:.6g} m to {top + length:.6g} m: a hole must be known all along its rod",
         )  # fmt: skip
+    for number, one in enumerate(given, 1):
+        ends = depths[number - 1 : number + 1]
+        outside = ends[0] < top - SAME_LENGTH * length or ends[1] > top + length + SAME_LENGTH * length
+        if one.diameter_at_top is not None and outside:
+            what = f"goes beyond the rod, which lies from {top:.6g} m to {top + length:.6g} m: what varies must lie "
+            what += "beside the rod with all of its length"
+            raise InputError(f"{called(number, one.name)}.diameter_at_top", one.diameter_at_top, what)
     places = [min(max(1.0 - (depth - top) / length, 0.0), 1.0) for depth in depths]
     return [1.0, *(0.0 if place < SAME_LENGTH else 1.0 if place > 1.0 - SAME_LENGTH else place
                    for place in places[1:-1]), 0.0]  # fmt: skip

@@ -13,6 +13,7 @@ from rodwell.case.beside import Pair
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.problem.problem import Problem
+from rodwell.problem.profile import extremes
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.scales import Scales
 
@@ -94,7 +95,7 @@ def plot_bridging(
 def _pieces(problem: Problem, across: float, per_metre: float | None, pairs: Sequence[Pair]) -> list[_Piece]:
     """Pieces between steps, with the hole's radius and the string's; without pairs that of the string is nil."""
     if pairs and per_metre is not None:
-        radii = [(0.5 * (pair.part.diameter or 0.0), pair.clearance) for pair in pairs]
+        radii = [(0.5 * extremes(pair.part.diameter or 0.0)[0], extremes(pair.clearance)[0]) for pair in pairs]
         return [
             _Piece(pair.start, pair.end, per_metre * hole, per_metre * (hole - clearance))
             for pair, (hole, clearance) in zip(pairs, radii, strict=True)

@@ -1,0 +1,217 @@
+"""Critical loads of the rod that lies along a wall whose clearance varies smoothly; whether it lies there."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.analysis.discrete.family import spline_ends
+from rodwell.analysis.discrete.meshes import linear_space
+from rodwell.analysis.straight.lying_loads import Found, below_all
+from rodwell.analysis.straight.refining import refined_loads
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.numerics.equilibria import eigen
+from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.physics.on_wall.ramps import contact_parts, variation_factors
+from rodwell.problem.clearances import ALL_SMOOTH, LEAST, SMOOTH
+from rodwell.problem.problem import Problem
+from rodwell.problem.profile import Profile
+from rodwell.problem.rod import Rod
+from rodwell.quantities.arrays import FloatArray, IntArray
+from rodwell.quantities.value import Peak
+
+NODES = 10
+"""Places in a section through which the contact, a polynomial of degree 7 at most, is known."""
+
+ROUND_OFF = 1e4 * np.finfo(float).eps
+"""Round-off in a fourth derivative, as a part of the clearance over the fourth power of the section's length."""
+
+
+def _derivatives(profile: Profile, orders: int, places: FloatArray, piece: IntArray) -> list[FloatArray]:
+    """A profile and its derivatives in pieces (m,), ``orders`` of them, (m,) each."""
+    out = []
+    for _ in range(orders):
+        out.append(profile.in_pieces(places, piece))
+        profile = profile.derivative
+    return out
+
+
+def _parts(
+    problem: Problem, places: FloatArray, piece: IntArray
+) -> tuple[tuple[FloatArray, FloatArray], FloatArray, FloatArray, FloatArray]:
+    """P at F = 0 and by F; b; N at F = 0; Δ: at places (m,) in sections (m,)."""
+    rod = problem.rod
+    stiffness = _derivatives(rod.stiffness, 3, places, piece)
+    clearance = [problem.clearance * one for one in _derivatives(rod.clearance, 5, places, piece)]
+    weight, lever = (one.in_pieces(places, piece) for one in (rod.weight, rod.lever))
+    contact = contact_parts(problem.foundation, problem.axial_weight, stiffness, clearance, weight, lever)
+    return contact, stiffness[0], problem.axial_weight * lever, clearance[0]
+
+
+def least_contact_on_ramps(problem: Problem, force: float) -> Peak:
+    """Least contact force per length in B/L³ of the rod that lies on the wall, and where; below 0 it would pull.
+
+    ``force`` is the end force at s = 1 in B/L², tension positive. Between ends of sections the contact force is a
+    polynomial, whose extremes are exact; in each section the one towards an end counts there.
+    """
+    breaks, sign = problem.rod.breaks, -1.0 if problem.outside else 1.0
+    x = 0.5 - 0.5 * np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
+    n, lengths = breaks.size - 1, np.diff(breaks)
+    (at_rest, by_force), *_ = _parts(
+        problem, (breaks[:-1, None] + lengths[:, None] * x).ravel(), np.repeat(np.arange(n), NODES)
+    )
+    values = sign * (at_rest + force * by_force).reshape(n, NODES)
+    rows = np.linalg.solve(np.polynomial.chebyshev.chebvander(2.0 * x - 1.0, NODES - 1), values.T).T
+    found = [_least(np.polynomial.Chebyshev(row)) for row in rows]
+    k = int(np.argmin([value for value, _ in found]))
+    shortest = float(np.min(lengths[problem.rod.tapers("clearance")]))
+    noise = ROUND_OFF * problem.clearance * problem.rod.stiffness_range[1] / shortest**4
+    return Peak(found[k][0], float(noise) + 64.0 * float(np.finfo(float).eps) * float(np.max(np.abs(values))),
+                float(breaks[k] + lengths[k] * found[k][1]))  # fmt: skip
+
+
+def _least(polynomial: np.polynomial.Chebyshev) -> tuple[float, float]:
+    """Least value of a polynomial on [−1, 1], and where, as a part of the interval."""
+    size = float(np.max(np.abs(polynomial.coef)))
+    slope = polynomial.deriv().trim(1e-13 * size) if size > 0.0 else polynomial
+    roots = slope.roots() if slope.degree() > 0 else np.zeros(0)
+    within = roots.real[(np.abs(roots.imag) < 1e-6) & (np.abs(roots.real) < 1.0)]
+    places = np.concatenate([[-1.0, 1.0], within])
+    values = polynomial(places)
+    k = int(np.argmin(values))
+    return float(values[k]), float(0.5 + 0.5 * places[k])
+
+
+def steepest(problem: Problem) -> float:
+    """Largest abs(Δ′) along the rod; 0 where the clearance is constant."""
+    if not problem.ramps:
+        return 0.0
+    slope, breaks = problem.rod.clearance.derivative, problem.rod.breaks
+    n, places = breaks.size - 1, np.linspace(0.0, 1.0, 33)
+    s = (breaks[:-1, None] + np.diff(breaks)[:, None] * places).ravel()
+    return problem.clearance * float(np.max(np.abs(slope.in_pieces(s, np.repeat(np.arange(n), places.size)))))
+
+
+def check_lies(problem: Problem) -> None:
+    """Refuse what is not computed where the clearance varies, and a wall that would have to pull at a single place.
+
+    Raises
+    ------
+    InputError
+        Naming the place.
+    """
+    if problem.twist != 0.0:
+        what = "must be 0 where the clearance varies: a torque pushes a rod sideways that the wall bends, by T₁Δ‴ per "
+        raise InputError("twist", problem.twist, what + "length, so that it lies on no straight generator")
+    for order, (sides, what) in enumerate(
+        zip(_moments(problem.rod), ("a couple", "a force at one place"), strict=True)
+    ):
+        found = np.abs(sides[1] - sides[0]) > SMOOTH * _beside(problem.rod, 2 + order)
+        if np.any(found):
+            name, place = ("BΔ″", "(BΔ″)′")[order], float(problem.rod.breaks[1:-1][found][0])
+            raise InputError(
+                "sections, clearance", f"{name} jumps at s/L = {place:.6g}",
+                f"makes the wall exert {what} there, which is not computed: the wall would have to pull the rod there "
+                f"or beside it, and the string bridges it. Let {name} go on smoothly. {ALL_SMOOTH}, with a stiffness "
+                "that goes on smoothly too",
+            )  # fmt: skip
+    _check_ends(problem)
+
+
+def _moments(rod: Rod) -> tuple[FloatArray, FloatArray]:
+    """BΔ″ and its derivative on both sides of ends of sections, over the problem's B and Δ, (2, n − 1) each."""
+    steps, piece = rod.breaks[1:-1], np.arange(rod.breaks.size - 2)
+    out = []
+    for side in (piece, piece + 1):
+        b, b1 = _derivatives(rod.stiffness, 2, steps, side)
+        _, _, d2, d3 = _derivatives(rod.clearance, 4, steps, side)
+        out.append((b * d2, b1 * d2 + b * d3))
+    return np.array([one[0] for one in out]), np.array([one[1] for one in out])
+
+
+def _beside(rod: Rod, order: int) -> FloatArray:
+    """The size that BΔ and derivatives of this order have beside ends of sections, (n − 1,)."""
+    least, most = rod.ranges["clearance"]
+    size = rod.ranges["stiffness"][1] * (most - least + LEAST * most) / np.diff(rod.breaks) ** order
+    return np.asarray(np.maximum(size[:-1], size[1:]))
+
+
+def _check_ends(problem: Problem) -> None:
+    """Refuse ends that would have to hold more of the rod than they do where the wall is inclined or curved."""
+    rod, ends, pieces = problem.rod, np.array([0.0, 1.0]), np.array([0, problem.rod.breaks.size - 2])
+    derivatives = np.abs(_derivatives(rod.clearance, 4, ends, pieces)[1:])  # (3, 2)
+    least, most = rod.ranges["clearance"][:, pieces]
+    size = most - least + LEAST * most
+    lengths = np.diff(rod.breaks)[pieces]
+    vanish = derivatives <= SMOOTH * size / lengths ** np.array([1.0, 2.0, 3.0])[:, None]
+    for which, end in enumerate(problem.ends):
+        asked = {"free": vanish[:, which], "guided": vanish[:, which], "loose": vanish[:, which],
+                 "ball": vanish[1:2, which]}.get(end, np.array([True]))  # fmt: skip
+        if not np.all(asked):
+            what = f"{end} at s = {which} where the clearance varies is not computed: let it be constant there, or "
+            raise InputError("ends", "-".join(problem.ends), what + "hold the end (clamped, pinned)")
+
+
+def refuse_pull(problem: Problem, force: float) -> None:
+    """Raise where the wall would have to pull the rod at an end force, with the place.
+
+    Raises
+    ------
+    InputError
+        Where the contact force is not above 0 everywhere.
+    """
+    least = least_contact_on_ramps(problem, force)
+    if least.value <= least.error:
+        raise InputError(
+            "sections, clearance", f"contact force {least.value:.4g} B/L³ at s/L = {least.s:.4g}",
+            f"must press the rod to the wall everywhere at its critical load {force:.8g} B/L²: the string bridges the "
+            "wall there, which is computed at steps of the clearance only. Let it vary over a longer part of the rod",
+        )  # fmt: skip
+
+
+def loads_on_ramps(problem: Problem, count: int, rtol: float) -> Found:
+    """Critical loads of the rod that lies on a wall whose clearance varies, to the order of Δ′².
+
+    Only those at which the wall presses the rod everywhere: at higher compression it has left the wall.
+
+    Raises
+    ------
+    InputError
+        Where the wall would have to pull already at the first.
+    NotConvergedError
+        If the tolerance cannot be met.
+    """
+    check_lies(problem)
+    space = linear_space(problem, count)
+    while space.size < 3 * count + 8:
+        space = space.refined()
+    found = refined_loads(problem, space, count, rtol, lambda mesh, start: _solve(problem, mesh, count, start))
+    refuse_pull(problem, -float(found.loads[0]))
+    pressed = [least_contact_on_ramps(problem, -load) for load in map(float, found.loads[:count])]
+    n = next((i for i, least in enumerate(pressed) if least.value <= least.error), count)
+    return Found(
+        -found.loads[:n], found.errors[:n], found.space, found.vectors[:n], found.coarse_space,
+        found.coarse_vectors[:n],
+    )  # fmt: skip
+
+
+def _solve(
+    problem: Problem, space: SplineSpace, count: int, start: tuple[FloatArray, FloatArray] | None
+) -> tuple[FloatArray, FloatArray]:
+    """λ = −F, rising, and full coefficient vectors (k, size), k ≥ ``count``."""
+    of_k, of_g = variation_factors(*_parts(problem, space.points, problem.rod.clearance.piece_of(space.points)))
+    held = spline_ends(problem).among(space.size)
+    stiffness, gram = held.free_part(space.form(of_k)), held.free_part(space.form(of_g))
+
+    def full(block: FloatArray) -> FloatArray:
+        return np.array([held.spread(free) for free in block])
+
+    def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
+        whole = full(block)
+        return space.grams(of_k, whole)[0], space.grams(of_g, whole)[0]
+
+    guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, held.free]))
+    try:
+        values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below_all(stiffness, gram), guess)
+    except eigen.EigenError as error:
+        raise NotConvergedError(f"critical loads: {error}") from None
+    return values, full(vectors)

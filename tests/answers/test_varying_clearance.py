@@ -1,0 +1,92 @@
+"""Holes whose diameter goes over smoothly from one to another: from the case file to the report."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from copy import deepcopy
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from rodwell import Case, InputError, Problem, critical_loads, ramp
+from rodwell.cli.main import cli
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "tubing-two-casings.toml"
+DATA: dict[str, Any] = tomllib.loads(EXAMPLE.read_text(encoding="utf-8"))
+INCH = 0.0254
+
+
+def _data(**changes: Any) -> dict[str, Any]:
+    """Tubing in a hole that narrows over a third of its length."""
+    data = deepcopy(DATA)
+    data["hole"]["section"] = [
+        {"length": "40 ft", "diameter": "7 in"},
+        {"name": "taper", "length": "40 ft", "diameter": "6.9 in", "diameter_at_top": "7 in"},
+        {"length": "40 ft", "diameter": "6.9 in"},
+    ]
+    data["hole"]["section"][1] |= changes
+    return data
+
+
+def test_the_problem_is_that_of_a_ramp() -> None:
+    problem = Case.from_dict(_data()).problem
+    bottom, top = (0.5 * (diameter - 2.875) for diameter in (6.9, 7.0))
+    length = 120 * 12
+    assert problem.clearance == pytest.approx(bottom / length, rel=1e-12)
+    third = 1.0 / 3.0
+    ratios = ramp(third, 1.0, top / bottom)
+    assert [section[3] for section in problem.sections[1:5]] == [pytest.approx(one[3], rel=1e-12) for one in ratios]
+    ours = Problem(problem.weight, 90.0, bottom / length, sections=((third,), *ratios, (third, 1, 1, top / bottom)))
+    assert critical_loads(problem, 2).forces == pytest.approx(critical_loads(ours, 2).forces, rel=1e-9)
+    plain = Case.from_dict(_data(diameter_at_top="6.9 in")).problem
+    assert not plain.ramps
+
+
+def test_run_tells_loads_contact_and_what_is_left_out(tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    text = EXAMPLE.read_text(encoding="utf-8")
+    before = text[: text.index("# from the top")]
+    file.write_text(
+        before + '[[hole.section]]\nlength = "40 ft"\ndiameter = "7 in"\n[[hole.section]]\nlength = "40 ft"\n'
+        'diameter = "6.9 in"\ndiameter_at_top = "7 in"\n[[hole.section]]\nlength = "40 ft"\ndiameter = "6.9 in"\n'
+        '[load]\napplied = "-5000 lbf"\n',
+        encoding="utf-8",
+    )
+    shown = CliRunner().invoke(cli, ["run", str(file), "--out", str(tmp_path / "out")])
+    assert shown.exit_code == 0, shown.output
+    said = " ".join(shown.output.split())
+    assert "lies on a wall whose clearance varies" in said
+    assert "Left out are terms of the order of the square of the wall's slope" in said
+    files = ["answer.json", "case.toml", "critical.csv", "critical.xlsx", "modes.png", "modes.svg", "report.html"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == files
+    found = json.loads((tmp_path / "out" / "answer.json").read_text(encoding="utf-8"))
+    problem = Case.from_dict(_data()).problem
+    assert found["critical_loads"][0]["value"] == pytest.approx(critical_loads(problem, 1)[0].force, rel=1e-9)
+    assert found["least_contact"]["value"] > 0.0
+    assert found["applied"][0]["buckled"] is False
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"diameter": "6.8 in"}, "hole.section: lets the clearance have a step at s/L = 0.3333"),
+        ({"diameter_at_top": "2 in"}, "does not fit"),
+        ({"diameter_at_top": [6.9, 7.0]}, "is a list"),
+    ],
+)
+def test_what_does_not_fit_is_named(change: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        Case.from_dict(_data(**change))
+
+
+def test_a_varying_section_lies_beside_the_rod_with_all_of_its_length() -> None:
+    data = deepcopy(DATA)
+    data["hole"]["section"] = [
+        {"from": "0 ft", "to": "60 ft", "diameter": "7 in"},
+        {"to": "130 ft", "diameter": "6.9 in", "diameter_at_top": "7 in"},
+    ]
+    with pytest.raises(InputError, match=r"hole\.section 2.diameter_at_top.*goes beyond the rod"):
+        Case.from_dict(data)
