@@ -7,12 +7,12 @@ shortening at most; so far is the hole off. :mod:`rodwell.analysis.state.own_pla
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
+from rodwell.analysis.discrete.pieces import Along, PiecewisePolynomial
 from rodwell.physics.on_wall.curved import CENTRE, FIRST, SCALE, TERMS
 from rodwell.problem.hole import Hole
 from rodwell.problem.lying import lying_rod_beside, places_of_lying_rod
@@ -53,9 +53,6 @@ NO_PIECE = 1e-9
 
 PLACES = np.linspace(0.0, 1.0, 257)  # fine enough to interpolate between
 
-Along = Callable[[FloatArray], FloatArray]
-"""Something along the rod: values at places (m,), of several (k, m)."""
-
 
 @dataclass(frozen=True)
 class HoleAlong:
@@ -93,47 +90,6 @@ def hole_along(rod: Rod, breaks: FloatArray, functions: Along) -> HoleAlong:
     by_piece = coefficients.reshape(-1, half.size, TERMS).transpose(1, 0, 2).reshape(half.size, -1)
     about = np.stack([rod.stiffness(centre), centre, 1.0 / half], axis=1)
     return HoleAlong(breaks, np.concatenate([about, by_piece], axis=1))
-
-
-NODES = 12
-"""Chebyshev nodes in each piece of a :class:`PiecewisePolynomial`."""
-
-
-@dataclass(frozen=True)
-class PiecewisePolynomial:
-    """A smooth function of s from its values at Chebyshev nodes between ``breaks``: coefficients (NODES, pieces)."""
-
-    breaks: FloatArray
-    coefficients: FloatArray
-
-    @classmethod
-    def of(cls, breaks: FloatArray, function: Along) -> PiecewisePolynomial:
-        """Take the values of a function."""
-        return cls.each(breaks, lambda s: function(s)[None])[0]
-
-    @classmethod
-    def each(cls, breaks: FloatArray, functions: Along) -> list[PiecewisePolynomial]:
-        """Take the values of several functions (k, m), which are asked for once."""
-        half, centre = 0.5 * np.diff(breaks), 0.5 * (breaks[1:] + breaks[:-1])
-        nodes = np.polynomial.chebyshev.chebpts1(NODES)
-        found = functions((centre[:, None] + half[:, None] * nodes).ravel()).reshape(-1, half.size, NODES)
-        fit = np.linalg.inv(np.polynomial.chebyshev.chebvander(nodes, NODES - 1))
-        return [cls(breaks, np.asarray(fit @ values.T)) for values in found]
-
-    def __call__(self, s: FloatArray) -> FloatArray:
-        """Values (m,) at places (m,)."""
-        piece = np.clip(np.searchsorted(self.breaks, s, side="right") - 1, 0, self.breaks.size - 2)
-        low, high = self.breaks[piece], self.breaks[piece + 1]
-        x = (2.0 * s - low - high) / (high - low)
-        return np.asarray(np.polynomial.chebyshev.chebval(x, self.coefficients[:, piece], tensor=False))
-
-    def integral_above(self) -> PiecewisePolynomial:
-        """∫ₛ¹ of it."""
-        half = 0.5 * np.diff(self.breaks)
-        whole = np.array(-half * np.polynomial.chebyshev.chebint(self.coefficients, lbnd=1.0))
-        pieces = np.asarray(np.polynomial.chebyshev.chebval(-1.0, whole))
-        whole[0] += np.concatenate([np.cumsum(pieces[::-1])[::-1][1:], [0.0]])
-        return PiecewisePolynomial(self.breaks, whole)
 
 
 def wall_side(problem: Problem) -> float:

@@ -14,13 +14,13 @@ from rodwell.analysis.discrete.choices import (
 )
 from rodwell.analysis.discrete.curved import (
     PLACES,
-    Along,
     hole_at,
     hung,
     pieces_of,
     stations_along,
     undeformed_place,
 )
+from rodwell.analysis.discrete.pieces import Along
 from rodwell.analysis.discrete.sectioned import kinked_space, places_along
 from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh, running_integral
 from rodwell.problem.problem import Problem

@@ -151,3 +151,16 @@ def position(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArr
     if state.model.soft:
         pressure = -d * state.model.stiffness * np.maximum(np.hypot(fields[0, 0], fields[1, 0]) - 1.0, 0.0)
     return d * fields[0], d * fields[1], pressure
+
+
+def fields_of(state: PatternedState, places: FloatArray) -> dict[str, FloatArray]:
+    """Fields of a state on one set of elements at ``places`` (k,)."""
+    x, y, pressure = position(state, places)
+    problem = state.problem
+    rod, stiffness = state.model.in_space(places, x, y, state.load), problem.rod.stiffness(places)
+    gap = problem.rod.clearance(places) - np.hypot(x[0], y[0]) / problem.clearance
+    return {
+        "x": x[0], "y": y[0], "z": along_axis(state, places), "gap": gap, "angle": np.arctan2(y[0], -x[0]),
+        "curvature": rod.curvature, "tension": rod.tension, "bending_moment": stiffness * rod.curvature,
+        "contact_pressure": pressure,
+    }  # fmt: skip

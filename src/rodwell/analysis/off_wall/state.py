@@ -12,7 +12,7 @@ from rodwell.analysis.off_wall.arrange import refined, turns_of
 from rodwell.analysis.off_wall.certificate import LIMIT, ContactCertificate, contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.curved.own_places import with_own_places
-from rodwell.analysis.off_wall.measured import Numbers, along_axis, measured, position
+from rodwell.analysis.off_wall.measured import Numbers, fields_of, measured
 from rodwell.analysis.off_wall.pattern import FINER
 from rodwell.analysis.off_wall.soft import aligned
 from rodwell.errors import InputError, NotConvergedError
@@ -231,11 +231,11 @@ class ContactState:
         in B/L³, negative in contact, without point forces.
         """
         places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
-        return {"s": places} | _fields(self.fine, places)
+        return {"s": places} | fields_of(self.fine, places)
 
     def field_errors(self, s: FloatArray) -> dict[str, float]:
         """Error estimates of the fields, the largest at places ``s`` (k,)."""
-        coarse, fine = _fields(self.coarse, s), _fields(self.fine, s)
+        coarse, fine = fields_of(self.coarse, s), fields_of(self.fine, s)
         turned = 2.0 * np.pi * np.round((fine["angle"] - coarse["angle"]) / (2.0 * np.pi))
         coarse["angle"] += turned  # π and −π are the same place
         return {name: float(np.max(estimated_error(fine[name], coarse[name]))) for name in fine}
@@ -262,19 +262,6 @@ class ContactState:
             "shortening": self.shortening.as_dict(),
             "certificate": self.certificate.as_dict(),
         }
-
-
-def _fields(state: PatternedState, places: FloatArray) -> dict[str, FloatArray]:
-    """Fields of a state on one set of elements at ``places`` (k,)."""
-    x, y, pressure = position(state, places)
-    problem = state.problem
-    rod, stiffness = state.model.in_space(places, x, y, state.load), problem.rod.stiffness(places)
-    gap = problem.rod.clearance(places) - np.hypot(x[0], y[0]) / problem.clearance
-    return {
-        "x": x[0], "y": y[0], "z": along_axis(state, places), "gap": gap, "angle": np.arctan2(y[0], -x[0]),
-        "curvature": rod.curvature, "tension": rod.tension, "bending_moment": stiffness * rod.curvature,
-        "contact_pressure": pressure,
-    }  # fmt: skip
 
 
 def contact_state(state: PatternedState) -> ContactState:

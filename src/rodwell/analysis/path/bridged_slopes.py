@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from rodwell.analysis.loads.sensitivity import Derivatives, Sensitivity
+from rodwell.analysis.loads.derivatives import Derivatives, Sensitivity
 from rodwell.analysis.loads.sensitivity import sensitivities as of_loads
 from rodwell.analysis.off_wall.arrange import solved
 from rodwell.analysis.off_wall.conditions import PatternedState

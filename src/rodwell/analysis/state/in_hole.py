@@ -8,13 +8,13 @@ from functools import cached_property
 import numpy as np
 
 from rodwell.analysis.discrete.curved import (
-    PiecewisePolynomial,
     ends_of_lying_rod,
     height_of_rod,
     hole_at,
     lifted,
     wall_side,
 )
+from rodwell.analysis.discrete.pieces import PiecewisePolynomial
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.curved import bends_at, step_loads, strand

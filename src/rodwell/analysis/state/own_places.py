@@ -19,13 +19,13 @@ import numpy as np
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.discrete.curved import (
     HoleAlong,
-    PiecewisePolynomial,
     along_rod,
     hole_along,
     hole_at,
     rates_at,
 )
 from rodwell.analysis.discrete.measures import Measured, measured_meshes
+from rodwell.analysis.discrete.pieces import PiecewisePolynomial
 from rodwell.analysis.state.in_hole import InHole, curvature
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria.family import Family

@@ -13,7 +13,6 @@ import numpy as np
 
 from rodwell.analysis.discrete.curved import (
     HoleAlong,
-    PiecewisePolynomial,
     ends_of_lying_rod,
     height_of_rod,
     hole_along,
@@ -21,6 +20,7 @@ from rodwell.analysis.discrete.curved import (
     lifted,
     undeformed_place,
 )
+from rodwell.analysis.discrete.pieces import PiecewisePolynomial
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.curved.model import RodOffCurvedWall
 from rodwell.numerics.stretches.bordered import Row, fixed_load
