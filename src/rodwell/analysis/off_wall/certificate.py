@@ -186,7 +186,8 @@ def _penetration(state: PatternedState) -> float:
 
 def _least(state: PatternedState) -> tuple[float, float]:
     """Least concentrated force, and least contact force per length."""
-    unseen = {one.s for one in at_steps(state) if one.kind == UNHELD and one.value >= 0.0}  # of gaps that do not count
+    asked = [] if state.model.soft else at_steps(state)
+    unseen = {one.s for one in asked if one.kind == UNHELD and one.value >= 0.0}  # of gaps that do not count
     forces = state.problem.clearance * np.array([force for s, force, _ in state.point_forces if s not in unseen])
     pressing = [one.value for one in conditions(state) if one.kind == OPENS]
     return float(np.min(forces, initial=np.inf)), float(min(pressing, default=np.inf))
