@@ -90,3 +90,10 @@ def test_a_varying_section_lies_beside_the_rod_with_all_of_its_length() -> None:
     ]
     with pytest.raises(InputError, match=r"hole\.section 2.diameter_at_top.*goes beyond the rod"):
         Case.from_dict(data)
+
+
+def test_the_end_that_is_too_narrow_is_named() -> None:
+    with pytest.raises(InputError, match=r"hole\.section 2 \(taper\)\.diameter_at_top = .* the rod does not fit"):
+        Case.from_dict(_data(diameter_at_top="2 in"))
+    with pytest.raises(InputError, match=r"hole\.section 2 \(taper\)\.diameter = .* the rod does not fit"):
+        Case.from_dict(_data(diameter="2 in"))

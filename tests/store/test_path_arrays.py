@@ -65,3 +65,11 @@ def test_the_file(path: LoadPath, data: xr.Dataset, tmp_path: Path) -> None:
         assert read.attrs["reached"] == 1
         assert read.attrs["weight"] == 15.0
         assert "wall_stiffness" not in read.attrs
+
+
+def test_a_path_of_a_rod_that_does_not_buckle_has_its_straight_range_and_no_states(tmp_path: Path) -> None:
+    write_load_path(rodwell.load_path(rodwell.Problem(15.0), until=-50.0), tmp_path / "path.nc")
+    with xr.open_dataset(tmp_path / "path.nc") as data:
+        assert "state" not in data.sizes
+        assert data.sizes["straight"] == 1
+        assert data.attrs["reached"] == 1

@@ -13,6 +13,7 @@ from click.testing import CliRunner
 from rodwell import Case, InputError, Problem, critical_loads
 from rodwell.answers.comparison.by_sections import ENDS_OF_ITS_OWN, LEAST_STIFFNESS, section_rods
 from rodwell.cli.main import cli
+from rodwell.report.reports.audit import conditions, if_held
 from rodwell.studies.audit.audit import audit
 
 STRING = Problem(400.0, 70.0, sections=((0.5, 1.0, 1.3), (0.2, 0.3, 0.8), (0.3, 2.0, 0.6)))
@@ -106,3 +107,11 @@ def test_a_case_names_its_sections(tmp_path: Path) -> None:
     assert {one["section"] for one in found["by_section"]} == {"drill pipe", "heavy-weight pipe"}
     assert (tmp_path / "out" / "audit.csv").read_text().splitlines()[0].endswith(",section")
     assert "bottom of drill pipe" in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_what_is_assumed_of_steps_is_said_beside_the_exact_loads() -> None:
+    string, uniform = (Problem(100.0, 60.0, sections=given) for given in ([(0.6, 1.0), (0.4, 0.5)], ()))
+    assert "if its slope is held at steps of its stiffness" in if_held(string)
+    assert if_held(string) in conditions(string)
+    assert "its slope held at steps of its stiffness" in audit(string).as_dict()["conventions"]
+    assert if_held(uniform) == ""

@@ -133,7 +133,8 @@ def _clearance(rod: PhysicalRod, hole: Hole, member: Member | None, part: HolePa
         return 0.5 * (part.diameter - outer)
     if member is None:
         what = f"must be above the rod's outer diameter of {outer:g} m: the rod does not fit"
-        raise InputError(f"{of_hole}.diameter", narrowest, what)
+        at_top = isinstance(part.diameter, tuple) and part.diameter[-1] == narrowest
+        raise InputError(f"{of_hole}.diameter{AT_TOP if at_top else ''}", narrowest, what)
     what = f"must be below the hole's diameter of {narrowest:g} m: the section does not fit"
     if of_hole != WHOLE:
         what = f"must be below the diameter of {of_hole} of {narrowest:g} m: the section does not fit"

@@ -153,11 +153,12 @@ def _decided(audit: Audit) -> None:
     from rich.console import Console  # noqa: PLC0415
     from rich.panel import Panel  # noqa: PLC0415
 
-    from rodwell.report.reports.audit import verdict  # noqa: PLC0415
+    from rodwell.report.reports.audit import if_held, verdict  # noqa: PLC0415
 
     lines = [f"[bold]{_safe(verdict(audit))}[/bold]"]
     for load in audit.loads:
         lines.append(f"• {_safe(load.label)}: {_force(audit, load.at('bottom'), 4)} of compression at the bottom")
+    lines += [f"• {_safe(what)}" for what in [if_held(audit.problem)] if what]
     lines += [f"• not compared: {_safe(note)}" for note in audit.not_found]
     panel = Panel("\n".join(lines), title=_safe(audit.title), title_align="left", border_style="blue")
     Console(highlight=False).print(panel)

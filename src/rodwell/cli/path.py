@@ -245,6 +245,9 @@ def _range(
     problem: Problem, case: Case | None, until: str | None, back: str | None, control: str
 ) -> tuple[float | None, float | None]:
     """Where the path goes, and comes back to: as asked, or, of a case, as its report goes; None: until it buckles."""
+    from rodwell.analysis.path.checks import checked_problem  # noqa: PLC0415
+
+    checked_problem(problem)
     if until is not None or problem.bridges:
         far = None if until is None else _number("--until", until, case, control)
         return far, None if back is None else _number("--unload-to", back, case, control)

@@ -124,6 +124,10 @@ def state_variables(told: list[Told], places: int) -> dict[str, Variable]:
     out = {
         "s": Variable(("s",), s, {"long_name": "arclength of the rod from s = 0", "units": "L"}),
         "field": Variable(("field",), text_array(FIELDS), {"long_name": "names of the fields"}),
+    }
+    if not told:  # of a rod that has not buckled
+        return out
+    out |= {
         "leg": _along("state", [one.leg for one in told], "which way the load goes"),
         "run": _along("state", [one.run for one in told], "unbroken piece of the path: a snap begins another"),
         "force": _along("state", [one.state.force for one in told], "end force at s = 1, tension positive", "force"),

@@ -9,7 +9,7 @@ import pytest
 from analysis.curved.space_form import SpaceRod
 
 import rodwell
-from rodwell import LoadPath, Problem, critical_loads, follow, load_path
+from rodwell import InputError, LoadPath, Problem, critical_loads, follow, load_path
 from rodwell.analysis.off_wall.conditions import OPENS, conditions
 from rodwell.analysis.off_wall.curved.own_places import in_fixed_axes, in_space
 from rodwell.analysis.off_wall.measured import position
@@ -215,3 +215,33 @@ def test_states_just_beyond_lift_off_have_their_balance() -> None:
     lift = path.lift_off.force.value
     for load in (lift - 0.005, lift - 0.05, -264.0):
         assert path.at(load)[0].state.certificate.passed
+
+
+def test_tension_that_pulls_the_rod_off_the_outside_of_the_curve_is_refused_with_the_load_and_the_place() -> None:
+    """Level at the middle, at κr N = w cos(ψ) first at an end."""
+    limit = lies_between(BUILD)[1]
+    assert limit is not None
+    words = (
+        rf"until = .* must be at most {limit.value:.8g} B/L². under more tension the rod leaves .* s/L = {limit.s:g}"
+    )
+    with pytest.raises(InputError, match=words):
+        load_path(BUILD, until=1.001 * limit.value)
+    with pytest.raises(InputError, match="unload_to"):
+        load_path(BUILD, until=-10.0, unload_to=1.001 * limit.value)
+    assert load_path(BUILD, until=0.999 * limit.value).reached
+
+
+def test_on_the_way_back_the_rod_lies_along_the_hole_again() -> None:
+    path = load_path(BUILD, until=-190.0, unload_to=-150.0)
+    there, back = path.events
+    assert (there.kind, back.kind) == ("critical", "critical")
+    assert there.force.value == pytest.approx(back.force.value, abs=1e-9)
+    assert (there.meaning, back.meaning) == (
+        "the rod that lies along the hole buckles", "the rod lies along the hole again",
+    )  # fmt: skip
+
+
+def test_a_gap_that_closes_at_an_end_of_its_neighbour_raises_nothing_where_the_shortening_is_controlled() -> None:
+    path = load_path(Problem(15.0, 70.0, build=0.3), until=0.003, control="shortening", seeds=1)
+    assert path.events[0].kind == "critical"
+    assert path.reached or path.ended_because

@@ -6,6 +6,7 @@ import math
 
 from rodwell.analysis.off_wall.control import FORCE, NAMES, Control, shortening
 from rodwell.analysis.off_wall.curved.refused import refuse_holes
+from rodwell.analysis.straight.lying import lies_between
 from rodwell.errors import InputError, checked_number
 from rodwell.problem.problem import Problem
 from rodwell.problem.sections import refuse_sections
@@ -41,7 +42,12 @@ def checked_problem(problem: Problem) -> None:
             "outside", True, "a rod outside a cylinder leaves it for good: there is no path beyond lift-off"
         )
     if problem.on_top:
-        raise InputError("on_top", True, "nothing presses a rod on top to the wall: its path begins at the bottom")
+        why = (
+            "nothing presses a rod on top to the wall"
+            if problem.hole is None
+            else "the path of a rod on top is refused"
+        )
+        raise InputError("on_top", True, f"{why}: its path begins at the bottom")
     if problem.turns:
         raise InputError("turns", problem.turns, "a load path begins with the straight rod: leave turns at 0")
     if problem.lateral_weight == 0.0 and problem.twist:
@@ -145,6 +151,17 @@ def checked_range(control: Control, until: float, unload_to: float | None) -> tu
         if unload_to >= until:
             raise InputError("unload_to", unload_to, f"must be below until, {until:g} L: less shortening")
     return until, unload_to
+
+
+def check_tension(problem: Problem, control: Control, **ends: float | None) -> None:
+    """Raise if a path in a curved hole goes to where tension has pulled the rod off the wall; ``ends`` by name."""
+    highest = lies_between(problem)[1] if problem.hole is not None and control.by_force else None
+    for name, force in ends.items():
+        if highest is not None and force is not None and force > highest.value:
+            raise InputError(
+                name, force, f"must be at most {highest.value:.8g} B/L²: under more tension the rod leaves the side of "
+                f"the hole that it lies on, at s/L = {highest.s:.4g} first, and what it does then is not computed",
+            )  # fmt: skip
 
 
 def checked_value(control: Control, field: str, value: object) -> float:

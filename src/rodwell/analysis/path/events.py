@@ -137,10 +137,11 @@ class PathPoint:
             if floats_in_part(self.state.problem):
                 return "the string of sections that sink and float buckles sideways"
             return "the string that bridges steps of the clearance buckles sideways"
-        if self.to is None and self.curved:
-            return (ALONG_THE_HOLE | THROUGH_THE_PLANE).get(self.plane or self.kind, MEANING[self.kind])
+        if self.kind == CRITICAL and self.leg == UNLOADING:
+            return "the rod lies along the hole again" if self.curved else "the rod is straight again"
         if self.to is None:
-            return MEANING[self.kind]
+            in_hole = ALONG_THE_HOLE | THROUGH_THE_PLANE if self.curved else {}
+            return in_hole.get(self.plane or self.kind, MEANING[self.kind])
         if self.to.kind == STRAIGHT:
             return f"the rod falls back to {unbuckled(self.curved)}"
         return f"the rod snaps to {self.to.meaning}"

@@ -11,6 +11,7 @@ from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.path.bridged import bridging, farthest
 from rodwell.analysis.path.checks import (
+    check_tension,
     checked_bridging,
     checked_control,
     checked_problem,
@@ -111,6 +112,7 @@ def load_path(
             raise InputError("until", None, "is missing: give the end force to which the rod is loaded")
         until = farthest(problem)
     until, unload_to = checked_range(way, until, unload_to)
+    check_tension(problem, way, until=until, unload_to=unload_to)
     seeds = checked_whole("seeds", seeds, 1, 100)
 
     def told(leg: str) -> Callable[[float], str | None] | None:

@@ -10,6 +10,7 @@ from rodwell._version import __version__
 from rodwell.answers.comparison.beside import NOT_APPLICABLE, SAFE, UNSAFE, USELESS, FormulaRow, Other
 from rodwell.answers.comparison.exact_loads import PLACES
 from rodwell.answers.words.advice import BAD, CAUTION, GOOD, OPEN, Status
+from rodwell.answers.words.steps import IF_HELD, held
 from rodwell.case.about import NOBODY, About
 from rodwell.formulas import LEFT_OUT
 from rodwell.formulas.record import NOMENCLATURE
@@ -73,11 +74,19 @@ def conditions(problem: Problem) -> str:
     if problem.sections:
         by_section = " Formulas are taken section by section, each with its own data and the force in it; told is the "
         by_section += "section whose compression comes to the formula's load first."
+    if what := if_held(problem):
+        by_section += f" {what}."
     return (
         f"γ = {plain(problem.weight)}, α = {plain(problem.alpha)}° from the vertical, "
         f"Δ/L = {plain(problem.clearance)}{twist}, {ends_text(problem)}. {hole[:1].upper()}{hole[1:]}, no "
         f"friction.{by_section}"
     )
+
+
+def if_held(problem: Problem) -> str:
+    """What the exact loads of a string assume of its steps and kinks; nothing of other rods."""
+    what = " and ".join(held(problem.rod, IF_HELD)) if problem.sections else ""
+    return f"The exact loads are those of a string that stays on the wall beside its steps: if {what}" if what else ""
 
 
 def verdict(audit: Audit) -> str:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rodwell._version import __version__
 from rodwell.answers.comparison.exact_loads import PLACES
+from rodwell.answers.words.steps import held
 from rodwell.formulas import LEFT_OUT
 from rodwell.formulas.record import NAMES, NOMENCLATURE
 from rodwell.problem.words import ends_text
@@ -28,7 +29,7 @@ def audit_dict(audit: Audit) -> dict[str, Any]:
         "rodwell_version": __version__,
         "conventions": "units B = L = 1 unless si, field or mm; compression positive in formulas and at top (s = 1), "
         f"middle, bottom (s = 0); force: end force at s = 1, tension positive; percent: formula/exact − 1; "
-        f"{ends_text(problem)}",
+        f"{', '.join([ends_text(problem), *held(problem.rod)])}",
         "problem": {
             "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
             "twist": problem.twist,
