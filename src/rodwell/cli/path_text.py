@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import click
@@ -9,6 +10,7 @@ import click
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import UNIT
 from rodwell.errors import InputError
+from rodwell.problem.words import floats_in_part
 from rodwell.quantities.text import amount, error_digit, plain, signed, with_error
 
 if TYPE_CHECKING:
@@ -164,4 +166,7 @@ def print_contacts(state: ContactState) -> None:
         click.echo(f"  contact  {_place(contact.start)} to {_place(contact.end)}   {force} spread along it")
     for point in state.point_forces:
         what = WHERE[point.kind]
+        if floats_in_part(state.problem):
+            high = (abs(point.angle) > 0.5 * math.pi) != state.problem.floats
+            what += f", on the {'upper' if high else 'lower'} wall"
         click.echo(f"  force    {_place(point.s)}              {amount(point.force, 6)} {UNIT} {what}")

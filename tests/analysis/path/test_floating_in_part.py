@@ -43,6 +43,7 @@ def test_between_both_sides_it_has_the_closed_form() -> None:
     places = [point.s.value for point in state.point_forces]
     assert places == pytest.approx([0.3 - a, 0.3 + a, 0.7 - a, 0.7 + a], abs=1e-7)
     assert [point.force.value for point in state.point_forces] == pytest.approx([0.5 * weight * a] * 4, rel=1e-7)
+    assert [abs(point.angle) for point in state.point_forces] == pytest.approx([0.0, np.pi, np.pi, 0.0], abs=1e-9)
     heights = state.fields(np.array([0.1, 0.3, 0.5, 0.7, 0.9]))["x"] / clearance
     assert heights == pytest.approx([-1.0, 0.0, 1.0, 0.0, -1.0], abs=1e-6)
     assert state.contact_total.value == pytest.approx(

@@ -72,12 +72,14 @@ class PointForce:
     ``kind``: "point", a point of contact with gaps on both sides, "end", an end of a stretch in contact, "edge", the
     edge of a narrower part of the hole, "tip", a loose end of the rod that touches the wall, or "kink", one of the
     stiffness within a stretch in contact; there a force below 0 stands for a gap that is too short to count:
-    :mod:`rodwell.physics.off_wall.kinks`.
+    :mod:`rodwell.physics.off_wall.kinks`. ``angle``: of the place around the hole from its bottom, in rad, between −π
+    and π (of a rod that floats from its top).
     """
 
     s: Value
     force: Value
     kind: str
+    angle: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,9 +174,15 @@ class ContactState:
     def point_forces(self) -> tuple[PointForce, ...]:
         """Concentrated contact forces from s = 0: at points of contact, edges, both ends of stretches in contact."""
         return tuple(
-            PointForce(self._value("point_places", i), self._value("points", i), kind)
-            for i, (_, _, kind) in enumerate(self.fine.point_forces)
+            PointForce(self._value("point_places", i), self._value("points", i), kind, angle)
+            for i, ((_, _, kind), angle) in enumerate(zip(self.fine.point_forces, self._angles, strict=True))
         )
+
+    @cached_property
+    def _angles(self) -> list[float]:
+        """Angle around the hole at each concentrated force."""
+        places = [s for s, _, _ in self.fine.point_forces]
+        return [float(one) for one in self.fields(np.array(places))["angle"]] if places else []
 
     @cached_property
     def contact_total(self) -> Value:
@@ -256,7 +264,8 @@ class ContactState:
                 {"from": c.start.as_dict(), "to": c.end.as_dict(), "force": c.force.as_dict()} for c in self.contacts
             ],
             "point_contacts": [
-                {"s": p.s.as_dict(), "force": p.force.as_dict(), "kind": p.kind} for p in self.point_forces
+                {"s": p.s.as_dict(), "force": p.force.as_dict(), "kind": p.kind, "angle": p.angle}
+                for p in self.point_forces
             ],
             "contact_total": self.contact_total.as_dict(),
             "shortening": self.shortening.as_dict(),
