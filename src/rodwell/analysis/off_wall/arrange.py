@@ -96,9 +96,7 @@ def solved(
     shape, elements = arranged(model, pattern, breaks, load, sample, degree=degree, elements=elements)
     row = fixed_load(shape.chain, load) if fixed is None else _fixed_distance(shape, *fixed)
     state: Solved | None = solve(model, shape, row)[1]
-    if state is None or np.any(np.diff(state.shape.places) <= 0.0):  # an end of a stretch has passed another, or s = 0
-        return None
-    return PatternedState(pattern, elements, state)
+    return PatternedState(pattern, elements, state) if state is not None and state.shape.in_order else None
 
 
 def turns_of(model: RodInHole, sample: Sampler) -> int:

@@ -254,7 +254,7 @@ class _Walker:
         along = tangent_in_load(after.state.solved, self.along.load)
         at = search(after.state.model, after.state.solved, along, after.grows, SEARCH, FARTHEST)
         beyond = at is None or (self.control.value(at) - self.until) * self.sense > 0.0  # not before the end
-        if at is None or beyond or np.any(np.diff(at.shape.places) <= 0.0):  # or an end has passed another
+        if at is None or beyond or not at.shape.in_order:
             return False
         there = PatternedState(after.state.pattern, after.state.elements, at)
         if any(one.value < -NEARLY * max(abs(there.load), 1.0) for one in conditions(there)):

@@ -65,7 +65,7 @@ def first_event(step: Step) -> PathEvent | str | None:
 def _located(step: Step) -> PathEvent | str | None:
     """What is seen to happen within a step by what holds at its ends; the first of it along the tangent."""
     state, new = step.state, step.new
-    if np.any(np.diff(new.solved.shape.places) <= 0.0):  # of a step of the string, say
+    if not new.solved.shape.in_order:  # of a step of the string, say
         return f"an end of a stretch passes that of an element within a step beyond F = {state.load:.8g} B/L²"
     broken = [one for one in conditions(new) if one.value < 0.0]
     first = {(one.kind, one.number): k for k, one in reversed(list(enumerate(broken)))}  # one function for all minima

@@ -140,7 +140,7 @@ class _Mover:
             self.way.model(part), state.pattern, shape.breaks, self.way.load(part), sampler(shape),
             degree=shape.chain.degree, elements=state.elements,
         )  # fmt: skip
-        if found is None or np.any(np.diff(found.solved.shape.places) <= 0.0):
+        if found is None or not found.solved.shape.in_order:
             return None
         return stopped(found)
 

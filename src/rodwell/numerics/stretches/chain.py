@@ -159,6 +159,11 @@ class Shape:
         """How long the elements are, (e,)."""
         return self.places[1:] - self.places[:-1]
 
+    @property
+    def in_order(self) -> bool:
+        """Whether every element has a length: no end of a stretch has passed another, a cut or an end of the rod."""
+        return bool(np.all(self.lengths > 0.0))
+
     @cached_property
     def cartesian(self) -> FloatArray:
         """(X, Y, X′, Y′) at the nodes, (e+1, 4)."""

@@ -139,7 +139,7 @@ def _settled(state: PatternedState, row: Row) -> PatternedState | None:
         assert isinstance(state.model, RodOffCurvedWall)
         model = replace(state.model, along=_tables_of(found))
         solved = solve(model, found.solved.shape, row)[1]
-        if solved is None or np.any(np.diff(solved.shape.places) <= 0.0):
+        if solved is None or not solved.shape.in_order:
             return None
         before, change = change, float(np.max(np.abs(solved.shape.nodes - found.solved.shape.nodes)))
         found = PatternedState(state.pattern, state.elements, solved)
