@@ -4,7 +4,8 @@
 
 Every well is drawn from its own seed, screened, and its headline is held against what its own numbers say: the stations
 past their exact loads, within the error of these, above He–Kyllingstad where the hole drops, and without an exact load.
-The rule is written down here once more, from the numbers of ``screening.json`` alone. Results go to
+The rule is written down here once more, from the numbers of ``screening.json`` alone; of bends beside a station, which
+count as at the station where they hold the pipe less, it is held that they make no utilisation milder. Results go to
 ``screen_verdicts.json`` beside this file; a run that was broken off goes on where it ended (``screen_verdicts.part``).
 """
 
@@ -90,6 +91,8 @@ def shown(data: dict[str, Any]) -> int:
         error, bent = data["critical_error"][i], data["critical_compression_in_build"][i]
         if bent is not None:
             exact, lift, error = bent, None, data["critical_error_in_build"][i]
+            # a bend that counts less beside the station counts as there: the load may be lower than in its own bend
+            exact = min(exact, force / data["utilisation"][i])
         if any(limit is not None and force > limit for limit in (exact, lift)):
             return 4
         if exact is None:
@@ -102,12 +105,22 @@ def shown(data: dict[str, Any]) -> int:
     return worst
 
 
+def own_bend_is_raised(data: dict[str, Any], i: int) -> bool:
+    """Whether a station's utilisation is lower than by the load in its own bend, which bends beside it only lower."""
+    if data["compression"] is None or data["critical_compression_in_build"][i] is None:
+        return False
+    own = max(data["compression"][i], 0.0) / data["critical_compression_in_build"][i]
+    return bool(data["utilisation"][i] < own * (1.0 - 1e-12))
+
+
 def faults(data: dict[str, Any]) -> list[str]:
     """What is milder than what stands below it: nothing, if all is well."""
     headline, lines = data["summary"][0], data["summary"]
     out = []
     if said(headline) != shown(data):
         out.append(f"headline says {said(headline)}, the numbers {shown(data)}: {headline}")
+    if any(own_bend_is_raised(data, i) for i in range(len(data["measured_depth"]))):
+        out.append("a utilisation is milder than by the load in the station's own bend")
     if max(said(line) for line in lines) > said(headline):
         out.append(f"a line is worse than the headline: {headline}")
     mild = "does not buckle" in headline

@@ -141,3 +141,18 @@ def test_a_kink_that_is_hardly_one_changes_nothing() -> None:
     loads: list[Any] = [event.force.value for event in found.events]
     assert loads == pytest.approx([-111.23344016, -123.173074, -124.1911865], abs=1e-6)
     assert kink_force(found.at(-120.0)[0].state.fine, 0.4) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_taper_buckles_without_a_snap_and_ends_of_gaps_go_back_over_its_kinks() -> None:
+    """A soft tip, a taper, a stiff shaft, which hardly weigh anything: up to a limit point and back."""
+    taper = (0.0625, 0.1526, 0.3164, 0.5862, 1.0)
+    rod = Problem(0.09, clearance=0.017, sections=((0.2, taper[0]), (0.33, taper), (0.47, 1.0)))
+    path = load_path(rod, until=-10.5, unload_to=-9.0, seeds=1)
+    kinds = {leg: [event for event in path.events if event.leg == leg] for leg in ("loading", "unloading")}
+    up, down = kinds["loading"], kinds["unloading"]
+    assert [event.kind for event in up[:2]] == ["critical", "lift_off"]  # it grows out of the straight rod
+    assert path.ended_because == ""
+    for kind, other in (("lift_off", "touch_down"), ("contact_lost", "contact_line")):
+        loads = [[event.force.value for event in one if event.kind == name] for one, name in ((up, kind), (down, other))]
+        assert loads[0] == pytest.approx(loads[1][::-1], abs=1e-7)
+    assert down[-1].kind == "critical"

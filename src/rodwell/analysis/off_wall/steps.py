@@ -156,7 +156,8 @@ def cross(plan: Plan, condition: Condition) -> None:
     below, above = state.model.problem.rod.stiffness(sides(s))
     own, beyond = (below, above) if up else (above, below)
     into_gap = plan.touching[i if up else i + 1] and not plan.touching[i + 1 if up else i]
-    if into_gap and own > beyond and not state.pattern.planar:
+    jumps = s in state.problem.rod.stiffness_steps  # at a kink the two sides differ by round-off
+    if jumps and into_gap and own > beyond and not state.pattern.planar:
         plan.breaks[i : i + 1] = [s - size, s + size]
         plan.touching.insert(i + 1, False)
         plan.pair = (s - size, s + size)

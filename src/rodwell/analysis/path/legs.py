@@ -39,6 +39,9 @@ MOST_SNAPS = 12
 SLACK = 1e-9
 """A condition on contact that is missed by no more than this part of the load is as good as met."""
 
+SLIGHTLY = 0.1
+"""Part of what the energy falls up to the state that the flow has found, beyond the event, that is as good as none."""
+
 NO_DROP = 1e-3
 """A state that gives way to one whose energy differs by less than this part has not snapped: the other branches off."""
 
@@ -146,9 +149,13 @@ def _tell(out: Walked, path: Followed, how: How) -> None:
 def _complete(event: PathEvent) -> bool:
     """Whether contact is complete on one side of an event of a gap, but for gaps at kinks of the stiffness."""
     if not event.state.model.soft:
-        state = event.state
-        return all(on or around_kink(state, i) is not None for i, on in enumerate(state.pattern.touching))
+        return _touches(event.state)
     return event.between is not None and any(one.everywhere for one in event.between)
+
+
+def _touches(state: PatternedState) -> bool:
+    """Whether contact is complete, but for gaps at kinks of the stiffness."""
+    return all(on or around_kink(state, i) is not None for i, on in enumerate(state.pattern.touching))
 
 
 def _met_another(state: PatternedState, how: How) -> bool:
@@ -204,11 +211,11 @@ def _to(
             "descent could be solved for with its contacts"
         )
         return
-    found, at = _destination(snap, control, held)
+    found, at = _destination(event, snap, control, held)
     if not fold and _continuous(event, snap.state, at, control):
         kind = BRANCH_POINT
         if flat(event):
-            kind = "" if found.fine.pattern.full else LIFT_OFF
+            kind = "" if _touches(found.fine) else LIFT_OFF
         if kind:
             out.events.append(PathPoint(kind, load, (), out.leg.name, None, found))
     else:
@@ -224,7 +231,7 @@ def _continuous(event: PatternedState, after: PatternedState, at: PatternedState
         return True  # it exists beyond that load only
     before, beyond, there = (control.potential(one.solved) for one in (event, after, at))
     if flat(event):
-        return abs(there - before) < 0.1 * abs(beyond - before)
+        return abs(there - before) < SLIGHTLY * abs(beyond - before)
     same_load = abs(at.load - event.load) <= NO_DROP * abs(event.load)
     return same_load and abs(there - before) < NO_DROP * max(abs(there), abs(before))
 
@@ -238,10 +245,18 @@ def _load_after(found: ContactState, control: Control, held: float) -> Value:
     return Value(found.force if finer is None else finer.load, error)
 
 
-def _destination(snap: Snap, control: Control, held: float) -> tuple[ContactState, PatternedState | None]:
-    """The state after a snap, at the load (or shortening) of the snap if it exists there, else where the flow was."""
+def _destination(
+    event: PatternedState, snap: Snap, control: Control, held: float
+) -> tuple[ContactState, PatternedState | None]:
+    """The state after a snap, at the load (or shortening) of the snap if it exists there, else where the flow was.
+
+    A state of more energy than that which gives way is none to which a rod goes: beside buckling Newton's method finds
+    such ones, with gaps at kinks of the stiffness that are about to close.
+    """
     at = control.at(snap.state, held)
     if at is not None:
-        valid = all(one.value >= -SLACK * abs(at.load) for one in conditions(at))
+        before, there, beyond = (control.potential(one.solved) for one in (event, at, snap.state))
+        valid = there - before <= SLIGHTLY * abs(beyond - before)
+        valid = valid and all(one.value >= -SLACK * abs(at.load) for one in conditions(at))
         at = at if valid and not control.index_at(at.solved) else None
     return contact_state(at if at is not None else snap.state), at

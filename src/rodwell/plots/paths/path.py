@@ -77,7 +77,7 @@ def _mark(ax: Any, result: LoadPath, event: PathPoint, seen: set[str], units: Un
         marker,
         color=colour,
         ms=6 if marker != "." else 7,
-        zorder=5,
+        zorder=5 if marker == "." else 6,  # a change of contact close by does not hide what has a name
         label=label,
     )
 
