@@ -18,8 +18,9 @@ from rodwell.quantities.arrays import FloatArray, IntArray
 PER_ELEMENT = 12
 """Places in an element at which depth and gap are looked at first."""
 
-NOISE = 1e-10
-"""A gap, over the polynomial with which it opens, is not known better than this: it is round-off over that."""
+NOISE, DEPTH_NOISE = 1e-10, 1e-12
+"""A gap, over the polynomial with which it opens, is not known better than the first: it is round-off over that. Nor is
+the gap itself known better than the second, in Δ: gaps at kinks of the stiffness are hardly higher."""
 
 EDGE, SHORTEST_EDGE, WIDEST = 0.02, 5e-4, 0.1
 """Part of a free stretch at either end where the gap is left to the conditions on forces and curvature; at least so
@@ -100,14 +101,17 @@ def least_gaps(
     length, radii = end - start, shape.chain.radii[every, None]
     opening, closing = powers[own].T[:, :, None]
 
+    def opens(xi: FloatArray) -> FloatArray:
+        at = (start[:, None] + length[:, None] * xi - left[own, None]) / (right - left)[own, None]
+        return np.asarray(at**opening * (1.0 - at) ** closing)
+
     def gap(xi: FloatArray) -> FloatArray:
         x, y = shape.along(every, xi, 1)[:, 0]
-        at = (start[:, None] + length[:, None] * xi - left[own, None]) / (right - left)[own, None]
-        return np.asarray((radii - np.hypot(x, y)) / (at**opening * (1.0 - at) ** closing))
+        return np.asarray((radii - np.hypot(x, y)) / opens(xi))
 
     inside = (np.maximum(low[own], start) - start) / length, (np.minimum(high[own], end) - start) / length
     values, xi = lowest(gap, np.linspace(*inside, PER_ELEMENT + 1, axis=1))
-    values[np.abs(values) < NOISE] = 0.0
+    values[np.abs(values) < np.maximum(NOISE, DEPTH_NOISE / opens(xi[:, None])[:, 0])] = 0.0
     first, last = (np.searchsorted(stretch[own], stretches, side) for side in ("left", "right"))
     least = [int(a + np.argmin(values[a:b])) for a, b in zip(first, last, strict=True)]
     return [(float(values[k]), float(start[k] + length[k] * xi[k])) for k in least]
