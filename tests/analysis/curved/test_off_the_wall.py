@@ -245,3 +245,17 @@ def test_a_gap_that_closes_at_an_end_of_its_neighbour_raises_nothing_where_the_s
     path = load_path(Problem(15.0, 70.0, build=0.3), until=0.003, control="shortening", seeds=1)
     assert path.events[0].kind == "critical"
     assert path.reached or path.ended_because
+
+
+def test_gaps_that_open_one_after_another_close_at_the_same_loads() -> None:
+    """A wire in a bent vessel: short gaps, the second and third within 5e-5 of the load, at which forces decide."""
+    rod = Problem(0.04, clearance=0.0213, ends="clamped-pinned", build=1.5)
+    path = load_path(rod, until=-804.0, unload_to=-780.0, seeds=1)
+    assert path.ended_because == ""
+    assert not path.missed
+    opened, closed = ([event for event in path.events if event.kind == kind] for kind in ("gap_opens", "gap_closes"))
+    places = sorted(s for event in closed for s in event.s)
+    assert sorted(s for event in opened for s in event.s) == pytest.approx(places, abs=1e-4)
+    loads = {round(event.s[0], 2): event.force.value for event in closed}
+    for event in opened:
+        assert event.force.value == pytest.approx(loads[round(event.s[0], 2)], abs=1e-6)

@@ -21,6 +21,8 @@ from rodwell.quantities.arrays import FloatArray
 LONGEST_ELEMENT, SHORTEST_ELEMENT = 1.5, 0.45
 """An element may become this much longer, or shorter, than a new one would be."""
 
+CURVED_WAVES = 0.4
+"""WAVES in a curved hole, which presses the rod to the wall: beside short gaps there the push changes more sharply."""
 
 SOFT_WALL = 2.0
 """Wavenumber of a rod pressed into a soft wall, in units (k/B)^¼: its push has kinks where contact ends."""
@@ -48,11 +50,13 @@ def element_counts(
     model: RodInHole,
     breaks: FloatArray,
     load: float,
-    waves: float = WAVES,
+    waves: float | None = None,
     fewest: int = 1,
     fixed: tuple[float, ...] = (),
 ) -> Elements:
     """Elements of each piece of each stretch, as waves and tapers ask for; ``fixed`` as in :class:`Pattern`."""
+    if waves is None:
+        waves = WAVES if model.problem.hole is None else CURVED_WAVES
     corners, section = pieces_of(model.problem, fixed)
     numbers = wavenumbers(model, load)
     if model.problem.tapered:

@@ -70,11 +70,12 @@ at a kink of the stiffness has become long enough to count: it has been there si
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Changed:
-    """The first state of a new pattern, and what grows along the path from there."""
+    """The first state of a new pattern, what grows along the path from there, and where gaps have opened with it."""
 
     state: PatternedState
     grows: Callable[[Solved], float]
     name: str
+    too: tuple[float, ...] = ()
 
 
 def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0) -> Changed | None:
@@ -83,6 +84,7 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
     ``part``: of the first length that a gap usually starts with.
     """
     first, vanished, last = vanished[0], list(vanished), None
+    too: tuple[float, ...] = ()
     if any(one.kind == CROSSES and edge_at(state, one.s) is not None for one in vanished):
         return None  # contact up to the very edge of a narrower part would need a couple
     size = part * FIRST_GAP / wavenumber(state.model, state.load)
@@ -95,7 +97,7 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
                 continue
             hurt = [one for one in conditions(found) if one.value < 0.0 and not _just_now(one)]
             name = "" if kinked(state, first.s) and first.kind == UNHELD else NAMES[first.kind]
-            last = Changed(found, _growing(first, found, plan), name)
+            last = Changed(found, _growing(first, found, plan), name, too)
             if not hurt or first.kind not in (OPENS, GROWS, SPLITS, GROWS_AT_END):
                 return last
             spots = [one.s for one in hurt if one.kind == OPENS] or spots
@@ -105,6 +107,7 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
         if not following:
             break
         vanished += following
+        too = (*too, *(one.s for one in following))
     return last if first.kind in (GROWS, GROWS_AT_END) else None
 
 

@@ -219,7 +219,7 @@ class _Walker:
             self.result.ended = unresolved(event)
             return
         if after.name:
-            self.result.events.append(replace(event, kind=after.name))
+            self.result.events.append(replace(event, kind=after.name, s=tuple(sorted({*event.s, *after.too}))))
         self._enter(after)
 
     def _enter(self, after: Changed) -> None:

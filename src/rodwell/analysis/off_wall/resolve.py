@@ -22,7 +22,7 @@ PART = 0.02
 UNKNOWN = 1e-5
 """Relative error that an event is given which could not be located again on finer elements: it counts as not met."""
 
-SEARCH, FARTHEST = 1e-6, 1e-2
+SEARCH, FARTHEST = 1e-6, 0.1
 """First and longest step along the path in which an event is sought again on finer elements."""
 
 
