@@ -82,7 +82,7 @@ def test_what_a_density_changes_by_along_s(fields: int) -> None:
     s, u = np.array([[0.41, 0.6]]), 0.3 * np.random.default_rng(1).standard_normal((fields, 3, 1, 2))
     h, mixed = 1e-5, density(s, u, -50.0, given)[3]
     known = (density(s + h, u, -50.0, given)[2] - density(s - h, u, -50.0, given)[2]) / (2.0 * h)
-    assert model.drift(s, u, mixed, given) == pytest.approx(known, abs=1e-8 * float(np.max(np.abs(known))))
+    assert model.drift(s, u, -50.0, mixed, given) == pytest.approx(known, abs=1e-8 * float(np.max(np.abs(known))))
 
 
 def test_an_end_of_contact_passes_steps_of_the_stiffness_in_the_plane() -> None:

@@ -19,6 +19,9 @@ RESOLVED = 1e-13
 
 MOST_HALVINGS = 5
 
+FARTHER = 0.1
+"""Part of the first and of the last piece for which their polynomials go on beyond the ends."""
+
 NODES = -np.cos(np.pi * np.arange(DEGREE + 1) / DEGREE)
 TO_COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, DEGREE))
 INTEGRAL = np.stack(
@@ -54,15 +57,23 @@ class Axis:
         """Arclength of the whole."""
         return float(self.breaks[-1])
 
+    @cached_property
+    def _reach(self) -> tuple[float, float]:
+        """Arclengths up to which the polynomials of the first and the last piece are taken."""
+        first, last = np.diff(self.breaks)[[0, -1]]
+        return -FARTHER * float(first), self.length + FARTHER * float(last)
+
     def at(self, places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Curvatures (n, 2), frames (n, 3, 3) with rows N1, N2, T, and points (n, 3) at arclengths (n,).
 
-        Beyond either end the curve goes on as a circle: curvatures stay what they are there.
+        Beyond either end the curve goes on as its last piece does, for a tenth of that, then as a circle: a rod on
+        the outside of a bend reaches a little beyond, and a kink of the curvature there would be one of its contact.
         """
         places = np.atleast_1d(np.asarray(places, dtype=float))
         values = self._values(places, self._by_piece)
         curvatures, frames, points = values[:, :2], values[:, 2:11].reshape(-1, 3, 3), values[:, 11:]
-        for beyond, end in ((places < 0.0, 0.0), (places > self.length, self.length)):
+        low, high = self._reach
+        for beyond, end in ((places < low, low), (places > high, high)):
             if beyond.any():
                 first = int(np.argmax(beyond))
                 ahead = places[beyond] - end
@@ -70,13 +81,14 @@ class Axis:
         return curvatures, frames, points
 
     def rates(self, places: FloatArray) -> FloatArray:
-        """Derivatives of k1, k2 by arclength, (n, 2), at arclengths (n,); 0 beyond either end."""
-        beyond = (places < 0.0) | (places > self.length)
+        """Derivatives of k1, k2 by arclength, (n, 2), at arclengths (n,); 0 on the circles beyond either end."""
+        low, high = self._reach
+        beyond = (places < low) | (places > high)
         return np.where(beyond[:, None], 0.0, self._values(places, self._rates_by_piece))
 
     def _values(self, places: FloatArray, pieces: FloatArray) -> FloatArray:
-        """Polynomials at arclengths (n,), (n, k), from their coefficients, (m, terms, k); beyond an end as there."""
-        inside = np.clip(places, 0.0, self.length)
+        """Polynomials at arclengths (n,), (n, k), from their coefficients, (m, terms, k); on circles as they begin."""
+        inside = np.clip(places, *self._reach)
         piece = np.searchsorted(self.breaks[1:-1], inside, side="right")
         low, high = self.breaks[piece], self.breaks[piece + 1]
         local = 2.0 * (inside - low) / (high - low) - 1.0

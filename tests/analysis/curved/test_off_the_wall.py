@@ -7,13 +7,11 @@ from functools import cache
 import numpy as np
 import pytest
 from analysis.curved.space_form import SpaceRod
+from analysis.curved.whole_rod import on_the_whole_rod
 
 import rodwell
 from rodwell import InputError, LoadPath, Problem, critical_loads, follow, load_path
 from rodwell.analysis.off_wall.conditions import OPENS, conditions
-from rodwell.analysis.off_wall.curved.own_places import in_fixed_axes, in_space
-from rodwell.analysis.off_wall.measured import position
-from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.straight.lying import lies_between
 
 BUILD = Problem(15.0, 90.0, clearance=0.01, build=0.2)
@@ -71,43 +69,9 @@ def test_states_pass_their_certificate(problem: Problem, until: float, loads: tu
 @pytest.mark.parametrize(("problem", "until", "load"), [(BUILD, -350.0, -340.0), (DROP, -90.0, -63.3)])
 def test_forces_and_moments_on_the_whole_rod_add_up_to_nothing(problem: Problem, until: float, load: float) -> None:
     """Supports, weight, distributed and concentrated contact: as vectors in space, about the origin."""
-    state = path_of(problem, until).at(load)[0].state.own_places
-    force, moment = supports(state)
-    nodes, weights = np.polynomial.legendre.leggauss(12)
-    ends = np.union1d(state.fine.bounds, state.fine.solved.shape.places)
-    half = 0.5 * np.diff(ends)
-    s = (ends[:-1, None] + half[:, None] * (nodes + 1.0)).ravel()
-    weights = (half[:, None] * weights).ravel()
-    r, frames = in_space(state.fine, s)
-    x, y, pressure = position(state.fine, s)
-    inward = -np.einsum("ki,kij->kj", np.stack([x[0], y[0]], axis=1), frames[:, :2]) / np.hypot(x[0], y[0])[:, None]
-    loads = -pressure[:, None] * inward - np.array([0.0, 0.0, problem.weight])
-    loads = np.where((pressure == 0.0)[:, None], -np.array([0.0, 0.0, problem.weight]), loads)
-    force, moment = force + weights @ loads, moment + weights @ np.cross(r, loads)
-    for one in state.point_forces:
-        at = np.array([one.s.value])
-        r, frames = in_space(state.fine, at)
-        x, y, _ = position(state.fine, at)
-        push = -one.force.value * (x[0, 0] * frames[0, 0] + y[0, 0] * frames[0, 1]) / problem.clearance
-        force, moment = force + push, moment + np.cross(r[0], push)
+    force, moment = on_the_whole_rod(path_of(problem, until).at(load)[0].state.own_places)
     assert np.max(np.abs(force)) < 1e-8 * abs(load)
     assert np.max(np.abs(moment)) < 3e-8 * abs(load)
-
-
-def supports(state: ContactState) -> tuple[np.ndarray, np.ndarray]:
-    """Force and moment of both supports on the rod, about the origin: n and M with their sign."""
-    problem, force, moment = state.problem, np.zeros(3), np.zeros(3)
-    for s, sign in ((0.0, -1.0), (1.0, 1.0)):
-        at = np.array([s])
-        x, y, _ = position(state.fine, at)
-        rod = state.fine.model.in_space(at, x, y, state.force)
-        n, t = (sign * in_fixed_axes(state.fine, at, one)[:, 0] for one in (rod.n, rod.t))
-        k1, k2 = state.fine.model.beside(at)[:2, 0]
-        q = 1.0 / (1.0 - k1 * x[0, 0] - k2 * y[0, 0])
-        bend = np.array([[x[2, 0] + q * k1], [y[2, 0] + q * k2], [0.0]])
-        couple = np.cross(t, in_fixed_axes(state.fine, at, bend)[:, 0]) - problem.twist * t
-        force, moment = force + n, moment + couple + np.cross(in_space(state.fine, at)[0][0], n)
-    return force, moment
 
 
 @pytest.mark.parametrize("load", [-70.0, -85.0])
@@ -200,8 +164,8 @@ def test_what_has_no_path_is_refused_with_the_reason(changes: dict[str, object],
     assert caught.value.field == field
 
 
-def test_axes_and_soft_walls_are_refused() -> None:
-    points = [(float(np.sin(u)), 0.0, 0.1 * u**2) for u in np.linspace(0.0, 1.0, 9)]
+def test_axes_out_of_a_vertical_plane_and_soft_walls_are_refused() -> None:
+    points = [(float(np.sin(u)), 0.1 * u**3, 0.1 * u**2) for u in np.linspace(0.0, 1.0, 9)]
     with pytest.raises(rodwell.InputError, match="axis"):
         load_path(Problem(15.0, axis=points), until=-100.0)
     with pytest.raises(rodwell.InputError, match="wall_stiffness"):

@@ -73,7 +73,7 @@ class RodInHole:
         """b, q, d and ρ at places."""
         return (*here(s, given), given[-1]) if self.tapered else given
 
-    def drift(self, s: FloatArray, u: FloatArray, mixed: FloatArray, given: FloatArray) -> FloatArray:
+    def drift(self, s: FloatArray, u: FloatArray, load: float, mixed: FloatArray, given: FloatArray) -> FloatArray:
         """The derivative of the gradient of a density by s at the same fields (f, 3, e, q) and load.
 
         The density is linear in b, N and q wₗ, and N′ = q wₐ: in a section of constants nothing else depends on s.
@@ -83,8 +83,8 @@ class RodInHole:
             return np.asarray(out)
         own, lateral, d, radius = self._beside(0.0, given), np.zeros(COUNT), self.problem.clearance, given[-1]
         lateral[LATERAL_WEIGHT] = self.problem.foundation
-        for load in (AXIAL_WEIGHT, LATERAL_WEIGHT, TWIST):
-            own[load] = 0.0
+        for each in (AXIAL_WEIGHT, LATERAL_WEIGHT, TWIST):
+            own[each] = 0.0
         rate, heavier = stiffness_rates(s, given)[0], weight_rate(s, given)
         if u.shape[0] == 1:
             y = (d * radius) * u[0]

@@ -137,7 +137,7 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     scaled = inverse.T[:, :, None] * weight[:, None]  # w h h^-d: (k, 3, q)
     sides = [g, mixed]
     if moves:
-        drift = model.drift(s, u, mixed, given)
+        drift = model.drift(s, u, shape.load, mixed, given)
         # at fixed coefficients the derivatives u_d go like h^-d, the place of a point like ξ h
         fall = u * (-_ORDERS[:, None] / h)[:, :, None]
         lengthen = (hessian * fall).sum(axis=(2, 3)) + g * ((1.0 - _ORDERS[:, None]) / h)[:, :, None]

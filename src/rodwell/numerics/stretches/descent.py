@@ -83,9 +83,9 @@ class SoftRim:
     model: Any
     stiffness: float
 
-    def drift(self, s: FloatArray, u: FloatArray, mixed: FloatArray, given: FloatArray) -> FloatArray:
+    def drift(self, s: FloatArray, u: FloatArray, load: float, mixed: FloatArray, given: FloatArray) -> FloatArray:
         """That of the model."""
-        return np.asarray(self.model.drift(s, u, mixed, given))
+        return np.asarray(self.model.drift(s, u, load, mixed, given))
 
     def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """That of the model: on a hard rim nothing is added."""

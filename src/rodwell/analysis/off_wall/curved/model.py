@@ -2,7 +2,7 @@
 
 On the wall the density of :mod:`rodwell.physics.on_wall.curved` serves, off it that of
 :mod:`rodwell.physics.off_wall.curved_energy`; they are equal where both hold. Both take the hole where the undeformed
-rod is (:mod:`rodwell.analysis.discrete.curved`), or where tables say, along which the curvature is constant.
+rod is (:mod:`rodwell.analysis.discrete.curved`), or where tables say.
 """
 
 from __future__ import annotations
@@ -85,18 +85,12 @@ class RodOffCurvedWall(RodInHole):
         """Parameters at an end force, as kernels on the wall take them: the weight is the whole one."""
         return parameters(self.problem, load)
 
-    @cached_property
-    def _lying(self) -> float:
-        """1 + Δk₁, constant: how much farther the end force moves than the hole's axis is long."""
-        return 1.0 + self.problem.clearance * float(self.beside(np.array([1.0]))[K1, 0])
-
     def drive(self, s: FloatArray, load: float) -> FloatArray:
         """N (m,): the force that drives the rod at ``s`` along the hole, reduced to its axis, in B/L²."""
-        hole = self.beside(s)
-        return np.asarray(self._lying * (load - self.problem.weight * hole[LIFT] + hole[OFFSET]))
+        return np.asarray(self._loads(self.beside(s), load)[0])
 
-    def drift(self, s: FloatArray, u: FloatArray, mixed: FloatArray, given: FloatArray) -> FloatArray:
-        """The derivative of the gradient by s: the densities are linear in N, w g₁ and w g₂, all that changes."""
+    def drift(self, s: FloatArray, u: FloatArray, load: float, mixed: FloatArray, given: FloatArray) -> FloatArray:
+        """The derivative of the gradient by s: by N, w g₁ and w g₂, in which the densities are linear, and k₁, k₂."""
         rates, weight, d = self.beside.rates(s), self.problem.weight, self.problem.clearance
         out = (rates[OFFSET] - weight * rates[LIFT]) * mixed
         first, second = weight / d * rates[G1], weight / d * rates[G2]
@@ -105,7 +99,31 @@ class RodOffCurvedWall(RodInHole):
         else:
             out[0, 0] += first
             out[1, 0] += second
+        if np.any(rates[:2]):
+            out += self._drift_of_bends(s, u, load, rates)
         return np.asarray(out)
+
+    def _drift_of_bends(self, s: FloatArray, u: FloatArray, load: float, rates: FloatArray) -> FloatArray:
+        """The part of k₁′ and k₂′, by a complex step: the densities take k₁ and k₂ as they are."""
+        d, hole, step = self.problem.clearance, self.beside(s).astype(complex), 1e-30
+        hole[:2] += 1j * step * rates[:2]
+        if u.shape[0] == 1:
+            y, y1, y2 = d * u[0]
+            along = np.zeros(self.parameters(load).size)
+            gradient = curved_density(y, y1, y2, tuple(hole), d, self.parameters(load), along)[2]
+        else:
+            loads = self._loads(hole, load)
+            gradient = curved_hole_density(
+                d * u.reshape(6, *s.shape), hole[:2], d, self.problem.twist, loads, (0.0, 0.0, 0.0)
+            )[2]
+        parts = [np.broadcast_to(np.imag(one) / (step * d), s.shape) for one in gradient]
+        return np.stack(parts).reshape(u.shape)
+
+    def _loads(self, hole: FloatArray, load: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """N = (1 + Δk₁)(F − w A + C), w g₁ and w g₂ of the hole beside places."""
+        weight = self.problem.weight
+        drive = (1.0 + self.problem.clearance * hole[K1]) * (load - weight * hole[LIFT] + hole[OFFSET])
+        return drive, weight * hole[G1], weight * hole[G2]
 
     def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density on the wall and its derivatives, from the angle with two derivatives, (1, 3, e, q)."""
@@ -124,12 +142,11 @@ class RodOffCurvedWall(RodInHole):
 
     def interior(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density off the wall and its derivatives, from X and Y with two derivatives, (2, 3, e, q)."""
-        d, hole, weight = self.problem.clearance, self.beside(s), self.problem.weight
-        drive = self._lying * (load - weight * hole[LIFT] + hole[OFFSET])
-        loads = drive, weight * hole[G1], weight * hole[G2]
+        d, hole = self.problem.clearance, self.beside(s)
         e, rate, g, m, h = curved_hole_density(
-            d * u.reshape(6, *s.shape), hole[:2], d, self.problem.twist, loads, (self._lying, 0.0, 0.0)
-        )
+            d * u.reshape(6, *s.shape), hole[:2], d, self.problem.twist, self._loads(hole, load),
+            (1.0 + d * hole[K1], 0.0, 0.0),
+        )  # fmt: skip
         gradient, mixed, hessian = *np.empty((2, 6, *s.shape)), np.empty((6, 6, *s.shape))
         for i in range(6):
             np.multiply(g[i], 1.0 / d, out=gradient[i])
@@ -143,9 +160,8 @@ class RodOffCurvedWall(RodInHole):
         self, s: FloatArray, angle: FloatArray, rate: FloatArray, bend: FloatArray, given: FloatArray
     ) -> tuple[FloatArray, ...]:
         """What a rod on the wall exerts radially at a cut, (k,) each: see :func:`radially_at_curved_wall`."""
-        d, hole = self.problem.clearance, self.beside(s)
-        still = np.zeros((2, s.size))
-        found = radially_at_curved_wall((angle, rate, bend), hole[:2], still, d, self.problem.twist)
+        d, bends, rates = self.problem.clearance, self.beside(s)[:2], self.beside.rates(s)[:2]
+        found = radially_at_curved_wall((angle, rate, bend), bends, rates, d, self.problem.twist)
         return tuple(one / d for one in found)
 
     def pressure(self, s: FloatArray, angle: FloatArray, load: float, given: FloatArray) -> FloatArray:
@@ -155,8 +171,8 @@ class RodOffCurvedWall(RodInHole):
 
     def in_space(self, s: FloatArray, x: FloatArray, y: FloatArray, load: float) -> InSpace:
         """Tangent and internal force by N₁, N₂, T of the hole there, from x and y with three derivatives, (4, k)."""
-        hole = self.beside(s)
-        return in_curved_hole(x, y, hole[:2], np.zeros((2, s.size)), self.drive(s, load), self.problem.twist)
+        bends, rates = self.beside(s)[:2], self.beside.rates(s)[:2]
+        return in_curved_hole(x, y, bends, rates, self.drive(s, load), self.problem.twist)
 
     def resultants(self, load: float) -> FloatArray:
         """The largest and the least of N along the rod, (2, 1)."""

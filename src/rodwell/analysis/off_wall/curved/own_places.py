@@ -2,7 +2,8 @@
 
 Paths take the hole where the undeformed rod is (:mod:`rodwell.analysis.off_wall.curved.model`). Here a state is solved
 with S(s) = S(0) + ∫ q ds of itself, q = a/h, and with the force that goes with it, as on the wall
-(:mod:`rodwell.analysis.state.own_places`): N′ = w T·k h where the curvature is constant, N(1) = (1 + Δk₁) F.
+(:mod:`rodwell.analysis.state.own_places`): N′ = ∂e/∂S − N ∂q/∂S, which is w T·k h where the curvature is constant, and
+N(1) = (1 + Δk₁) F.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from rodwell.analysis.discrete.curved import (
     hole_along,
     hole_at,
     lifted,
+    rates_at,
     undeformed_place,
 )
 from rodwell.analysis.discrete.pieces import PiecewisePolynomial
@@ -28,6 +30,7 @@ from rodwell.numerics.stretches.carry import fields_at
 from rodwell.numerics.stretches.newton import solve
 from rodwell.numerics.stretches.walk import row_of, tangent_in_load
 from rodwell.physics.off_wall._curved_density import curved_hole_density
+from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 MOST_ROUNDS = 25
@@ -41,6 +44,9 @@ places settle by the product of curvature and shortening a round."""
 
 PIECES = 64
 """Pieces of the rod, at least, in each of which the hole is a polynomial."""
+
+STEP = 1e-30
+"""Imaginary part of a complex step."""
 
 APART = 1e-6
 """Ends of pieces nearer to each other, in L, make no piece."""
@@ -101,19 +107,42 @@ def _pieces(state: PatternedState) -> FloatArray:
     return np.concatenate([[0.0], inner[(np.diff(ends)[:-1] > APART) & (1.0 - inner > APART)], [1.0]])
 
 
+def _by_bends(state: PatternedState, s: FloatArray, places: FloatArray) -> FloatArray:
+    """∂e/∂S − N ∂q/∂S at places (k,) without that of the height: by k₁ and k₂, with a complex step."""
+    model, problem = state.model, state.problem
+    (x, x1, x2), (y, y1, y2) = problem.clearance * fields_at(state.solved.shape, s)[0][:, :3]
+    assert isinstance(model, RodOffCurvedWall)
+    k1, k2 = hole_at(problem, places)[0][:2] + 1j * STEP * rates_at(problem, places)
+    a = np.sqrt(1.0 - x1**2 - y1**2)
+    q = a / (1.0 - k1 * x - k2 * y)
+    first, second = x2 + a * q * k1, y2 + a * q * k2
+    axial = -(x1 * x2 + y1 * y2) / a - q * (k1 * x1 + k2 * y1)
+    turned = (x1 * y2 - y1 * x2) / (1.0 + a) + q * (x1 * k2 - y1 * k1)
+    e = 0.5 * (first**2 + second**2 + axial**2) + problem.twist * turned - model.drive(s, state.load) * q
+    return np.asarray(np.imag(e) / STEP)
+
+
 def _tables_of(state: PatternedState) -> HoleAlong:
     """The hole at the rod's own places, and the force that goes with it."""
     problem, place = state.problem, places_along(state)
 
     def climb(s: FloatArray) -> FloatArray:
-        (k1, _, _, _), rise = hole_at(problem, place(s))
-        return np.asarray(rise * step_along(state, s)[1] / (1.0 + problem.clearance * k1))
+        return hole_at(problem, place(s))[1]
 
-    rise = lifted(place.breaks, climb)
+    def rate(s: FloatArray) -> FloatArray:
+        return np.asarray(problem.weight * climb(s) * step_along(state, s)[1] + _by_bends(state, s, place(s)))
+
+    rise, driven = lifted(place.breaks, climb), lifted(place.breaks, rate)
+
+    def farther(s: FloatArray) -> FloatArray:
+        return np.asarray(1.0 + problem.clearance * hole_at(problem, place(s))[0][0])
+
+    last = float(farther(np.array([1.0]))[0])
 
     def functions(s: FloatArray) -> FloatArray:
-        here = hole_at(problem, place(s))[0]
-        return np.concatenate([here, rise(s)[None], np.zeros((1, s.size))])
+        lift = rise(s)
+        offset = (last * state.load - driven(s)) / farther(s) - state.load + problem.weight * lift
+        return np.concatenate([hole_at(problem, place(s))[0], lift[None], offset[None]])
 
     return hole_along(problem.rod, place.breaks, functions)
 
@@ -180,19 +209,27 @@ def energy_in_space(state: PatternedState) -> float:
     Relative to the rod that lies still, from whose end S₀(1) on the end force works.
     """
     problem, model = state.problem, state.model
-    breaks, (nodes, weights) = places_along(state).breaks, np.polynomial.legendre.leggauss(10)
+    breaks, (nodes, gauss) = places_along(state).breaks, np.polynomial.legendre.leggauss(10)
     half = 0.5 * np.diff(breaks)
     s = (breaks[:-1, None] + half[:, None] * (nodes + 1.0)).ravel()
-    weights = (half[:, None] * weights).ravel()
+    weights = (half[:, None] * gauss).ravel()
     fields = problem.clearance * fields_at(state.solved.shape, s)[0][:, :3]
     none = np.zeros_like(s)
     assert isinstance(model, RodOffCurvedWall)
     stored = curved_hole_density(
         fields.reshape(6, s.size), model.beside(s)[:2], problem.clearance, problem.twist, (none,) * 3, (0.0,) * 3
     )[0]
-    lying = height_of_rod(problem, undeformed_place(problem, s), none)
-    risen = problem.weight * (in_space(state, s)[0][:, 2] - lying)
+    undeformed, own = undeformed_place(problem, s), places_along(state)
+    risen = problem.weight * (in_space(state, s)[0][:, 2] - height_of_rod(problem, undeformed, none))
+    now, before = (_bending_at_rest(problem, place) for place in (own(s), undeformed))
     end = np.array([1.0])
-    moved = float((places_along(state)(end) - undeformed_place(problem, end))[0])
-    travel = (1.0 + problem.clearance * float(model.beside(end)[0, 0])) * moved
-    return float(weights @ (stored + risen)) - state.load * travel
+    start, last = float(undeformed_place(problem, end)[0]), float(own(end)[0])
+    along = start + 0.5 * (last - start) * (nodes + 1.0)
+    travel = 0.5 * (last - start) * float(gauss @ (1.0 + problem.clearance * hole_at(problem, along)[0][0]))
+    return float(weights @ (stored + now - before + risen)) - state.load * travel
+
+
+def _bending_at_rest(problem: Problem, places: FloatArray) -> FloatArray:
+    """Bending energy per length of the rod that lies at places (k,) of the hole's axis."""
+    k1, k2, _, _ = hole_at(problem, places)[0]
+    return np.asarray(0.5 * (k1**2 + k2**2) / (1.0 + problem.clearance * k1) ** 2)

@@ -8,22 +8,20 @@ from rodwell.problem.problem import Problem
 
 def in_such_a_hole(problem: Problem) -> bool:
     """Whether states off the wall are computed in a hole like that of a problem."""
-    return problem.hole is None or (problem.hole.planar and not problem.axis and not problem.sections)
+    return problem.hole is None or (problem.hole.planar and not problem.sections)
 
 
 def refuse_holes(problem: Problem) -> None:
     """Raise in a curved hole in which no states off the wall are computed, with the reason."""
     if in_such_a_hole(problem):
         return
-    if problem.axis:
-        raise InputError(
-            "axis", f"{len(problem.axis)} points", "must be left out: off the wall the hole beside the rod has one "
-            "curvature; give build, the mean curvature of that piece of the hole, and alpha there",
-        )  # fmt: skip
     if problem.hole is not None and not problem.hole.planar:
+        field, value, must = ("walk", str(problem.walk), "be 0")
+        if problem.axis:
+            field, value, must = ("axis", f"{len(problem.axis)} points", "stay in a vertical plane")
         raise InputError(
-            "walk", problem.walk, "must be 0: a load path begins with the rod that lies in a vertical plane, and in "
-            "this hole it lies beside the bottom and moves with the load; how it lies up to where it leaves the wall: "
+            field, value, f"must {must}: a load path begins with the rod that lies in a vertical plane, and in this "
+            "hole it lies beside the bottom and moves with the load; how it lies up to where it leaves the wall: "
             "rodwell.lying_rod",
         )  # fmt: skip
     raise InputError(
