@@ -72,6 +72,8 @@ class Axis:
         places = np.atleast_1d(np.asarray(places, dtype=float))
         values = self._values(places, self._by_piece)
         curvatures, frames, points = values[:, :2], values[:, 2:11].reshape(-1, 3, 3), values[:, 11:]
+        farther = (places < 0.0) | (places > self.length)
+        frames[farther] = _right_angled(frames[farther])
         low, high = self._reach
         for beyond, end in ((places < low, low), (places > high, high)):
             if beyond.any():
@@ -142,6 +144,14 @@ class Axis:
         places = (self.breaks[:-1, None] + np.diff(self.breaks)[:, None] * inner).ravel()
         places = np.concatenate([[0.0], places, [self.length]])
         return places, self.at(places)[0]
+
+
+def _right_angled(frames: FloatArray) -> FloatArray:
+    """Frames (n, 3, 3) whose rows are unit vectors at right angles but for round-off, which grows beyond an end."""
+    tangent = frames[:, 2] / np.linalg.norm(frames[:, 2], axis=1, keepdims=True)
+    first = frames[:, 0] - np.sum(frames[:, 0] * tangent, axis=1, keepdims=True) * tangent
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    return np.stack([first, np.cross(tangent, first), tangent], axis=1)
 
 
 def circle(

@@ -140,7 +140,8 @@ def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, s
     case = computed.case
     if not in_such_a_hole(case.problem):
         return None, (
-            "states off the wall of a curved hole are computed of a uniform rod where the hole stays in a vertical plane"
+            "states off the wall of a curved hole are computed of a uniform rod in a hole that stays in a vertical "
+            "plane"
         )
     left = computed.left_before
     if left is not None and left.value >= 0.0:
