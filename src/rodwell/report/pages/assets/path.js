@@ -20,12 +20,13 @@
     if (text !== undefined) made.textContent = text;
     return chart.appendChild(made);
   };
-  const number = (value) => Number(value.toPrecision(4)).toString().replace("-", "−");
+  const number = (value, whole) => // what is round-off of the whole range is nothing
+    Number((Math.abs(value) < 1e-9 * whole ? 0 : value).toPrecision(4)).toString().replace("-", "−");
   draw("path", { class: "frame-line", d: `M${left} ${top}V${bottom}H${right}` });
   for (let i = 0; i < 3; i++) {
     const x = x0 + (i / 2) * (x1 - x0), y = y0 + (i / 2) * (y1 - y0);
-    draw("text", { x: across(x), y: bottom + 18, "text-anchor": "middle" }, number(x));
-    draw("text", { x: left - 6, y: up(y) + 4, "text-anchor": "end" }, number(y));
+    draw("text", { x: across(x), y: bottom + 18, "text-anchor": "middle" }, number(x, x1 - x0));
+    draw("text", { x: left - 6, y: up(y) + 4, "text-anchor": "end" }, number(y, y1 - y0));
   }
   draw("text", { x: (left + right) / 2, y: bottom + 40, "text-anchor": "middle" }, data.axes.across);
   draw("text", { x: 16, y: (top + bottom) / 2, "text-anchor": "middle", transform: `rotate(-90 16 ${(top + bottom) / 2})` }, data.axes.up);
