@@ -141,7 +141,7 @@ def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, s
     if not in_such_a_hole(case.problem):
         return None, (
             "states off the wall of a curved hole are computed of a uniform rod where the hole has one curvature, in a "
-            "vertical plane (build)"
+            "vertical plane (build); `rodwell path` has a string of sections until it buckles"
         )
     left = computed.left_before
     if left is not None and left.value >= 0.0:

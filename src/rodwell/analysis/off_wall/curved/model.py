@@ -3,6 +3,10 @@
 On the wall the density of :mod:`rodwell.physics.on_wall.curved` serves, off it that of
 :mod:`rodwell.physics.off_wall.curved_energy`; they are equal where both hold. Both take the hole where the undeformed
 rod is (:mod:`rodwell.analysis.discrete.curved`), or where tables say, along which the curvature is constant.
+
+A section of a string has b times the energy of a rod of stiffness 1 under 1/b of the loads, in a hole of its own
+clearance. The terms of the energy that are linear in the curvature of the offset, b k₁ x″ among them, are no total
+derivative where b has steps: the densities keep them, and so a string is off the wall beside its steps.
 """
 
 from __future__ import annotations
@@ -10,18 +14,19 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.discrete.curved import HoleAlong, along_rod
+from rodwell.analysis.discrete.curved import HoleAlong, along_rod, along_uniform_rod
 from rodwell.analysis.discrete.family import parameters
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.physics.off_wall._curved_density import curved_hole_density
 from rodwell.physics.off_wall.curved_forces import in_curved_hole, radially_at_curved_wall
 from rodwell.physics.off_wall.forces import InSpace
 from rodwell.physics.on_wall._curved_density import curved_density
-from rodwell.physics.on_wall.curved import CENTRE, FIRST, FUNCTIONS, SCALE, TERMS, strand
-from rodwell.physics.on_wall.parameters import FORCE
+from rodwell.physics.on_wall.curved import CENTRE, FIRST, FUNCTIONS, SCALE, STIFFNESS, TERMS, strand
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, TWIST
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -31,7 +36,11 @@ FIRM = 1e4
 """Largest contact force per length over the clearance, in B/L⁴, up to which soft walls serve as in a straight hole."""
 
 PLACES = np.linspace(0.0, 1.0, 33)
-"""Places at which it is seen how much the rod is compressed and pressed."""
+"""Places in each section at which it is seen how much the rod is compressed and pressed."""
+
+_ACROSS = slice(FIRST + G1 * TERMS, FIRST + LIFT * TERMS)
+_ALONG = slice(FIRST + LIFT * TERMS, FIRST + (OFFSET + 1) * TERMS)
+"""Coefficients of g₁ and g₂, and of A and C."""
 
 
 @dataclass(frozen=True)
@@ -73,8 +82,11 @@ class RodOffCurvedWall(RodInHole):
 
     @cached_property
     def tables(self) -> HoleAlong:
-        """The tables of the hole."""
-        return along_rod(self.problem) if self.along is None else self.along
+        """The tables of the hole; of a string with g₁, g₂ of weight ratio 1, and A of its own weight."""
+        if self.along is not None:
+            return self.along
+        found = along_rod(self.problem)
+        return alike_in_sections(found, along_uniform_rod(self.problem)) if self.problem.sections else found
 
     @cached_property
     def beside(self) -> HoleBeside:
@@ -87,8 +99,9 @@ class RodOffCurvedWall(RodInHole):
 
     @cached_property
     def _lying(self) -> float:
-        """1 + Δk₁, constant: how much farther the end force moves than the hole's axis is long."""
-        return 1.0 + self.problem.clearance * float(self.beside(np.array([1.0]))[K1, 0])
+        """1 + Δk₁ at the end, constant: how much farther the end force moves than the hole's axis is long."""
+        radius = self.problem.clearance * float(self.given[-1, 3])
+        return 1.0 + radius * float(self.beside(np.array([1.0]))[K1, 0])
 
     def drive(self, s: FloatArray, load: float) -> FloatArray:
         """N (m,): the force that drives the rod at ``s`` along the hole, reduced to its axis, in B/L²."""
@@ -99,9 +112,9 @@ class RodOffCurvedWall(RodInHole):
         """The derivative of the gradient by s: the densities are linear in N, w g₁ and w g₂, all that changes."""
         rates, weight, d = self.beside.rates(s), self.problem.weight, self.problem.clearance
         out = (rates[OFFSET] - weight * rates[LIFT]) * mixed
-        first, second = weight / d * rates[G1], weight / d * rates[G2]
+        first, second = weight / d * given[1] * rates[G1], weight / d * given[1] * rates[G2]
         if u.shape[0] == 1:
-            out[0, 0] += first * np.sin(u[0, 0]) + second * np.cos(u[0, 0])
+            out[0, 0] += given[3] * (first * np.sin(u[0, 0]) + second * np.cos(u[0, 0]))
         else:
             out[0, 0] += first
             out[1, 0] += second
@@ -109,35 +122,49 @@ class RodOffCurvedWall(RodInHole):
 
     def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density on the wall and its derivatives, from the angle with two derivatives, (1, 3, e, q)."""
-        d, own = self.problem.clearance, self.parameters(load)
-        y, y1, y2 = d * u[0]
-        along = np.zeros(own.size)
-        along[FORCE] = 1.0
-        e, rate, g, m, h = curved_density(y, y1, y2, tuple(self.beside(s)), d, own, along)
+        d, b, ratio = self.problem.clearance, given[0], given[3]
+        radius, hole, own = d * ratio, self.beside(s), self._own(load, given)
+        y, y1, y2 = radius * u[0]
+        further = self._lying / (1.0 + radius * hole[K1])  # 1 but where the clearance is not that at the end
+        hole[[G1, G2]] *= given[1]
+        hole[LIFT], hole[OFFSET] = further * hole[LIFT], further / b * hole[OFFSET]
+        own[FORCE] = further * own[FORCE]
+        along: list[Any] = [0.0] * len(own)
+        along[FORCE] = further / b
+        e, rate, g, m, h = curved_density(y, y1, y2, tuple(hole), radius, own, along)
         gradient, mixed, hessian = *np.empty((2, 1, 3, *s.shape)), np.empty((1, 3, 1, 3, *s.shape))
+        slope, curvature = b * ratio * (1.0 / d), b * ratio**2
         for i in range(3):
-            np.multiply(g[i], 1.0 / d, out=gradient[0, i])
-            np.multiply(m[i], 1.0 / d, out=mixed[0, i])
+            np.multiply(g[i], slope, out=gradient[0, i])
+            np.multiply(m[i], slope, out=mixed[0, i])
             for j in range(3):
-                hessian[0, i, 0, j] = h[i][j]
-        return e / d**2, rate / d**2, gradient, mixed, hessian
+                np.multiply(h[i][j], curvature, out=hessian[0, i, 0, j])
+        return b * e / d**2, b * rate / d**2, gradient, mixed, hessian
+
+    def _own(self, load: float, given: FloatArray) -> list[Any]:
+        """Parameters of a rod of stiffness 1: 1/b of the loads."""
+        out: list[Any] = self.parameters(load).tolist()
+        for one in (FORCE, AXIAL_WEIGHT, TWIST):
+            out[one] = out[one] / given[0]
+        return out
 
     def interior(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density off the wall and its derivatives, from X and Y with two derivatives, (2, 3, e, q)."""
-        d, hole, weight = self.problem.clearance, self.beside(s), self.problem.weight
-        drive = self._lying * (load - weight * hole[LIFT] + hole[OFFSET])
-        loads = drive, weight * hole[G1], weight * hole[G2]
+        d, hole, b, weight = self.problem.clearance, self.beside(s), given[0], self.problem.weight / given[0] * given[1]
+        drive = self._lying * (load - self.problem.weight * hole[LIFT] + hole[OFFSET])
+        loads = drive / b, weight * hole[G1], weight * hole[G2]
         e, rate, g, m, h = curved_hole_density(
-            d * u.reshape(6, *s.shape), hole[:2], d, self.problem.twist, loads, (self._lying, 0.0, 0.0)
-        )
+            d * u.reshape(6, *s.shape), hole[:2], d * given[3], self.problem.twist / b, loads,
+            (self._lying / b, 0.0, 0.0),
+        )  # fmt: skip
         gradient, mixed, hessian = *np.empty((2, 6, *s.shape)), np.empty((6, 6, *s.shape))
         for i in range(6):
-            np.multiply(g[i], 1.0 / d, out=gradient[i])
-            np.multiply(m[i], 1.0 / d, out=mixed[i])
+            np.multiply(g[i], b * (1.0 / d), out=gradient[i])
+            np.multiply(m[i], b * (1.0 / d), out=mixed[i])
             for j in range(6):
-                hessian[i, j] = h[i][j]
+                np.multiply(h[i][j], b, out=hessian[i, j])
         pair = (2, 3, *s.shape)
-        return e / d**2, rate / d**2, gradient.reshape(pair), mixed.reshape(pair), hessian.reshape(2, 3, *pair)
+        return b * e / d**2, b * rate / d**2, gradient.reshape(pair), mixed.reshape(pair), hessian.reshape(2, 3, *pair)
 
     def rim_reaction(
         self, s: FloatArray, angle: FloatArray, rate: FloatArray, bend: FloatArray, given: FloatArray
@@ -145,34 +172,58 @@ class RodOffCurvedWall(RodInHole):
         """What a rod on the wall exerts radially at a cut, (k,) each: see :func:`radially_at_curved_wall`."""
         d, hole = self.problem.clearance, self.beside(s)
         still = np.zeros((2, s.size))
-        found = radially_at_curved_wall((angle, rate, bend), hole[:2], still, d, self.problem.twist)
-        return tuple(one / d for one in found)
+        b, radius = given[0], d * given[3]
+        found = radially_at_curved_wall((angle, rate, bend), hole[:2], still, radius, self.problem.twist / b)
+        return tuple(b * one / d for one in found)
 
     def pressure(self, s: FloatArray, angle: FloatArray, load: float, given: FloatArray) -> FloatArray:
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, …)."""
         rows = np.moveaxis(self.tables(s.ravel()).reshape(*s.shape, -1), -1, 0)
-        return np.asarray(strand(s, self.problem.clearance * angle, rows, self.parameters(load))[-1])
+        radius, own = self.problem.clearance * given[3], self.parameters(load).tolist()
+        further = self._lying / (1.0 + radius * self.beside(s)[K1])
+        rows = np.concatenate([np.broadcast_to(given[0], s.shape)[None], rows[1:]])
+        rows[_ACROSS] *= given[1]
+        rows[_ALONG] *= further
+        own[FORCE], own[CLEARANCE] = further * load, radius
+        return np.asarray(strand(s, radius * angle, rows, own)[-1])
 
     def in_space(self, s: FloatArray, x: FloatArray, y: FloatArray, load: float) -> InSpace:
         """Tangent and internal force by N₁, N₂, T of the hole there, from x and y with three derivatives, (4, k)."""
         hole = self.beside(s)
-        return in_curved_hole(x, y, hole[:2], np.zeros((2, s.size)), self.drive(s, load), self.problem.twist)
+        b = self.problem.rod.stiffness(s)
+        t, n, curvature, tension = in_curved_hole(
+            x, y, hole[:2], np.zeros((2, s.size)), self.drive(s, load) / b, self.problem.twist / b
+        )
+        return InSpace(t, b * n, curvature, b * tension)
 
     def resultants(self, load: float) -> FloatArray:
-        """The largest and the least of N along the rod, (2, 1)."""
-        drive = self.drive(PLACES, load)
-        return np.array([[np.max(drive)], [np.min(drive)]])
+        """The largest and the least of N along each section, (2, n)."""
+        drive = self.drive(self._looked_at, load)
+        return np.array([np.max(drive, axis=1), np.min(drive, axis=1)])
+
+    @cached_property
+    def _looked_at(self) -> FloatArray:
+        breaks = self.problem.rod.breaks
+        return np.asarray(breaks[:-1, None] + np.diff(breaks)[:, None] * PLACES)
 
     def bed(self, load: float) -> FloatArray:
-        """√(P/Δ) of the largest contact force per length P that weight and bend press the rod with, (1,)."""
-        hole, d = self.beside(PLACES), self.problem.clearance
+        """√(P/(bΔ)) of the largest contact force per length P that weight and bend press each section with, (n,)."""
+        hole, (b, q, _, radius) = self.beside(self._looked_at), self.given.T[..., None]
         bent = np.hypot(hole[K1], hole[K2])
-        pressed = self.problem.weight * np.hypot(hole[G1], hole[G2]) + bent * (np.abs(self.drive(PLACES, load)) + bent)
-        return np.array([math.sqrt(float(np.max(pressed)) / d)])
+        pressed = self.problem.weight * np.abs(q) * np.hypot(hole[G1], hole[G2])
+        pressed = pressed + bent * (np.abs(self.drive(self._looked_at, load)) + b * bent)
+        return np.asarray(np.sqrt(np.max(pressed / (b * radius), axis=1) / self.problem.clearance))
 
     def firmness(self, load: float) -> float:
         """How many times as stiff soft walls must be as in a straight hole: the curve presses the rod into them."""
-        return max(1.0, float(self.bed(load)[0]) ** 2 / FIRM)
+        return max(1.0, float(np.max(self.bed(load))) ** 2 / FIRM)
+
+
+def alike_in_sections(own: HoleAlong, uniform: HoleAlong) -> HoleAlong:
+    """Tables with A and C of a string, and all else of a uniform rod on the same pieces: sections do the rest."""
+    rows = own.rows.copy()
+    rows[:, STIFFNESS], rows[:, _ACROSS] = 1.0, uniform.rows[:, _ACROSS]
+    return HoleAlong(own.breaks, rows)
 
 
 def rod_in_hole(problem: Problem, stiffness: float = math.inf) -> RodInHole:

@@ -28,6 +28,9 @@ from rodwell.numerics.stretches.carry import fields_at
 from rodwell.numerics.stretches.newton import solve
 from rodwell.numerics.stretches.walk import row_of, tangent_in_load
 from rodwell.physics.off_wall._curved_density import curved_hole_density
+from rodwell.problem.problem import Problem
+from rodwell.problem.rod import Rod
+from rodwell.problem.sections import PLAIN
 from rodwell.quantities.arrays import FloatArray
 
 MOST_ROUNDS = 25
@@ -107,7 +110,8 @@ def _tables_of(state: PatternedState) -> HoleAlong:
 
     def climb(s: FloatArray) -> FloatArray:
         (k1, _, _, _), rise = hole_at(problem, place(s))
-        return np.asarray(rise * step_along(state, s)[1] / (1.0 + problem.clearance * k1))
+        end = problem.clearance * float(problem.rod.clearance.coefficients[-1, 0])
+        return np.asarray(problem.rod.weight(s) * rise * step_along(state, s)[1] / (1.0 + end * k1))
 
     rise = lifted(place.breaks, climb)
 
@@ -115,7 +119,7 @@ def _tables_of(state: PatternedState) -> HoleAlong:
         here = hole_at(problem, place(s))[0]
         return np.concatenate([here, rise(s)[None], np.zeros((1, s.size))])
 
-    return hole_along(problem.rod, place.breaks, functions)
+    return hole_along(Rod(PLAIN), place.breaks, functions)  # sections do the rest
 
 
 def with_own_places(state: PatternedState, *, near: bool = False) -> PatternedState | None:
@@ -174,6 +178,17 @@ def in_space(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArr
     return points + x[:, None] * frames[:, 0] + y[:, None] * frames[:, 1], frames
 
 
+def _lying_place(problem: Problem, s: FloatArray) -> FloatArray:
+    """The place S₀ (k,) on the axis of an arc beside the rod that lies along it; of each section at its clearance."""
+    rod = problem.rod
+    if not rod.clearance_steps.size:
+        return undeformed_place(problem, s)
+    bend = float(hole_at(problem, np.array([0.5]))[0][0, 0])
+    lengths = np.diff(rod.breaks) / (1.0 + problem.clearance * rod.clearance.coefficients[:, 0] * bend)
+    ahead = np.concatenate([[0.0], np.cumsum(lengths)])
+    return np.asarray(ends_of_lying_rod(problem)[0] + np.interp(s, rod.breaks, ahead))
+
+
 def energy_in_space(state: PatternedState) -> float:
     """Bending, height and torque less the work of the end force, of a state that has its own places, in B/L.
 
@@ -187,12 +202,17 @@ def energy_in_space(state: PatternedState) -> float:
     fields = problem.clearance * fields_at(state.solved.shape, s)[0][:, :3]
     none = np.zeros_like(s)
     assert isinstance(model, RodOffCurvedWall)
-    stored = curved_hole_density(
-        fields.reshape(6, s.size), model.beside(s)[:2], problem.clearance, problem.twist, (none,) * 3, (0.0,) * 3
-    )[0]
-    lying = height_of_rod(problem, undeformed_place(problem, s), none)
-    risen = problem.weight * (in_space(state, s)[0][:, 2] - lying)
+    b, radius = problem.rod.stiffness(s), problem.clearance * problem.rod.clearance(s)
+    stored = (
+        b
+        * curved_hole_density(
+            fields.reshape(6, s.size), model.beside(s)[:2], radius, problem.twist / b, (none,) * 3, (0.0,) * 3
+        )[0]
+    )
+    lying = height_of_rod(problem, _lying_place(problem, s), none)
+    lying = lying + (problem.clearance - radius) * hole_at(problem, _lying_place(problem, s))[0][2]
+    risen = problem.weight * problem.rod.weight(s) * (in_space(state, s)[0][:, 2] - lying)
     end = np.array([1.0])
-    moved = float((places_along(state)(end) - undeformed_place(problem, end))[0])
-    travel = (1.0 + problem.clearance * float(model.beside(end)[0, 0])) * moved
+    moved = float((places_along(state)(end) - _lying_place(problem, end))[0])
+    travel = (1.0 + float(radius[-1]) * float(model.beside(end)[0, 0])) * moved
     return float(weights @ (stored + risen)) - state.load * travel
