@@ -7,7 +7,7 @@ import json
 import pytest
 from click.testing import CliRunner
 
-from rodwell import InputError
+from rodwell import InputError, Problem, critical_loads, load_path
 from rodwell.cli.main import cli
 
 
@@ -47,13 +47,19 @@ def test_critical_as_json() -> None:
         (("critical", "--build", "150"), "must be above the clearance"),
         (("critical", "--build", "7"), "makes the hole run into itself"),
         (("critical", "--build", "0.2", "--ends", "ball-ball"), "leaves the wall at a ball end"),
-        (("critical", "--build", "0.2", "--sections", "0.5:1:1:1.2,0.5:2"), "must have one clearance in a curved hole"),
+        (
+            ("critical", "--walk", "0.2", "--sections", "0.5:1:1:1.2,0.5:2"),
+            "must have one clearance in a hole along an axis",
+        ),
         (("certify", "--build", "0.2"), "loads are proved of a rod without weight"),
         (("sensitivity", "--build", "0.2", "--walk", "0.1", "--mode", "2"), "no critical load"),
         (("twist", "--build", "0.2"), "in straight holes only"),
         (("path", "--build", "0.2", "--walk", "0.1", "--until", "-200"), "lies beside the bottom"),
         (("path", "--build", "0.2", "--until", "-200", "--wall-stiffness", "1e6"), "whose wall is hard here"),
-        (("path", "--build", "0.2", "--sections", "0.5:1,0.5:2", "--until", "-200"), "beside its steps"),
+        (
+            ("path", "--build", "0.2", "--sections", "0.5:1,0.5:2/1", "--until", "-200"),
+            "must not taper in a curved hole",
+        ),
         (
             ("curve", "critical", "--over", "twist", "--from", "0", "--to", "1", "--build", "0.2", "--walk", "0.1"),
             "no critical load",
@@ -135,3 +141,25 @@ def test_certify_says_which_numbers_are_taken_exactly() -> None:
     code, text = run("certify", "--weight", "0", "--build", "0.5", "--modes", "1", "--digits", "8")
     assert code == 0
     assert "Clearance and build are taken as the decimals given." in " ".join(text.split())
+
+
+def test_strings_off_the_wall_of_a_build_have_their_loads() -> None:
+    """Of the command line what the library has: steps of the stiffness alone, and of the clearance."""
+    given = ("--weight", "50", "--alpha", "60", "--build", "0.2")
+    steps = (*given, "--sections", "0.5:1,0.5:3")
+    problem = Problem(50.0, 60.0, build=0.2, sections=((0.5, 1.0), (0.5, 3.0)))
+    event = load_path(problem).first("critical")
+    assert event is not None
+    assert event.meaning == "the string in the curved hole buckles sideways"
+    data = json.loads(run("critical", *steps, "--modes", "1", "--json")[1])
+    assert data["not_held_at_steps"]["value"] == pytest.approx(event.force.value, rel=1e-8)
+    assert data["critical_loads"] == pytest.approx([critical_loads(problem, 1)[0].force], rel=1e-8)
+    assert "not held at its steps, off the wall beside them: −258.858" in run("critical", *steps, "--modes", "1")[1]
+    assert "buckles sideways" in run("path", *steps)[1]
+    over = (*given, "--sections", "0.4,0.2:1:1:0.5,0.4")
+    bridges = problem.but(sections=((0.4, 1, 1, 1), (0.2, 1, 1, 0.5), (0.4, 1, 1, 1)))
+    event = load_path(bridges).first("critical")
+    assert event is not None
+    data = json.loads(run("critical", *over, "--json")[1])
+    assert data["critical_loads"] == pytest.approx([event.force.value], rel=1e-8)
+    assert data["bridged"]["certificate"]["passed"]

@@ -23,7 +23,7 @@ from rodwell.report.reports.study import study_report
 from rodwell.studies.sweep.varied import is_study
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
-ELSEWHERE = ("[packer]", "[[hole.section]]")
+ELSEWHERE = ("[packer]", "[[hole.section]]", "stabiliser in a build section")
 """Sections that make a case one of another kind."""
 
 CASES = sorted(
@@ -103,8 +103,9 @@ def test_what_a_command_prints_and_its_report_are_written_well(
     assert violations([*texts, *pages]) == []
 
 
-def test_steps_of_the_clearance_are_written_well() -> None:
-    found = bridged_answer(rodwell.Case.read(EXAMPLES / "tubing-two-casings.toml"))
+@pytest.mark.parametrize("name", ["tubing-two-casings", "stabiliser-in-build"])
+def test_steps_of_the_clearance_are_written_well(name: str) -> None:
+    found = bridged_answer(rodwell.Case.read(EXAMPLES / f"{name}.toml"))
     assert found.converged
     for system in SYSTEMS:
         there = replace(found, case=found.case.in_units(system))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.critical_bridged import bridged_numbers, first_buckling, show_bridged
-from rodwell.cli.critical_in_hole import lying_numbers, show_lying
+from rodwell.cli.critical_in_hole import lying_numbers, show_lying, unheld_load
 from rodwell.cli.critical_varying import show_varying, varying_numbers
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
@@ -60,8 +60,9 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
     loads = critical_loads(problem, modes, rtol=rtol)
     if problem.hole is not None:
         tensile = tensile_loads(problem, modes, rtol=rtol)
-        show_lying(loads, tensile, as_json)
-        keep(where, lambda: lying_numbers(loads, tensile), quiet=as_json)
+        unheld = unheld_load(problem, rtol)
+        show_lying(loads, tensile, unheld, as_json)
+        keep(where, lambda: lying_numbers(loads, tensile, unheld), quiet=as_json)
         return
     free = loads_without_wall(problem, rtol=rtol)
     if as_json:

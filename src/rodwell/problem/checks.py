@@ -157,12 +157,11 @@ def _check_hole(problem: Any) -> None:
     refuse_off_wall(problem.ends, "the states of a rod in a curved hole")
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "must be 0 in a curved hole: coils are computed in straight ones")
-    if problem.bridges and not problem.rod.clearance_steps.size:
-        why = "must all sink or all float in a curved hole: strings with sections of both kinds are computed in "
-        raise InputError("sections", f"{len(problem.sections)} of them", f"{why}straight holes")
-    if problem.bridges:
-        why = "must have one clearance in a curved hole: strings that bridge its steps are computed in straight holes; "
-        raise InputError("sections", f"{len(problem.sections)} of them", why + "give one clearance for all sections")
+    if problem.bridges and (problem.axis or problem.walk != 0.0):
+        kind = "one clearance" if problem.rod.clearance_steps.size else "one sign of weight"
+        what = f"must have {kind} in a hole along an axis or with walk: strings that bridge are computed in straight "
+        what += f"holes and in those of one build; give {kind} for all sections"
+        raise InputError("sections", f"{len(problem.sections)} of them", what)
 
 
 def _ask_for_degrees(alpha: float) -> None:

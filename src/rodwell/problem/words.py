@@ -19,7 +19,9 @@ def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
 
 def where_it_bridges(problem: Problem) -> str:
     """Where a string leaves the wall by itself: at steps of the clearance, or where it begins to float."""
-    return "where some sections sink and others float" if floats_in_part(problem) else "where the clearance has steps"
+    if floats_in_part(problem):
+        return "where some sections sink and others float"
+    return "where the clearance has steps" if problem.bridges else "where a curved hole bends sections"
 
 
 def floats_in_part(problem: Problem) -> bool:

@@ -153,7 +153,7 @@ def test_where_a_bend_presses_hard_the_rod_is_seen_to_snap() -> None:
     ("changes", "field"),
     [
         ({"walk": 0.1}, "walk"),
-        ({"sections": ((0.5, 1.0), (0.5, 0.6))}, "sections"),
+        ({"sections": ((0.5, (1.0, 0.6)), (0.5, 0.6))}, "sections"),
         ({"build": -0.5, "weight": 0.0}, "build"),
         ({"build": -0.5, "twist": 1.0}, "twist"),
     ],

@@ -56,7 +56,7 @@ def test_forces_and_moments_on_the_whole_rod_add_up_to_nothing(problem: Problem,
 def test_what_a_density_changes_by_along_s(fields: int) -> None:
     """Against differences: on the wall and off it, with slope and twist."""
     model = RodOffCurvedWall(TANGENT.but(twist=2.0))
-    density, given = model.rim if fields == 1 else model.interior, np.zeros((0, 1, 1))
+    density, given = model.rim if fields == 1 else model.interior, model.given[0][:, None, None]
     s, u = np.array([[0.41, 0.6]]), 0.3 * np.random.default_rng(1).standard_normal((fields, 3, 1, 2))
     h, mixed = 1e-5, density(s, u, -50.0, given)[3]
     known = (density(s + h, u, -50.0, given)[2] - density(s - h, u, -50.0, given)[2]) / (2.0 * h)

@@ -192,7 +192,11 @@ def hung(problem: Problem, rod: Rod, breaks: FloatArray) -> PiecewisePolynomial:
     """A(s) = ∫ₛ¹ q T·k ds of the undeformed rod, between ``breaks``."""
 
     def climb(s: FloatArray) -> FloatArray:
-        return rod.weight(s) * hole_at(problem, undeformed_place(problem, s))[1]
+        here, rise = hole_at(problem, undeformed_place(problem, s))
+        if problem.rod.clearance_steps.size:  # a step along the hole moves what lies nearer to the centre by less
+            reach = problem.clearance * problem.rod.clearance(s), problem.clearance * problem.rod.clearance(np.ones(1))
+            rise = rise * (1.0 + reach[0] * here[0]) / (1.0 + reach[1] * here[0])
+        return rod.weight(s) * rise
 
     return lifted(breaks, climb)
 

@@ -7,7 +7,7 @@ Where one of them vanishes along a path the pattern of contact changes:
 * the gap beside a point of contact opens like a parabola, r″ < 0: else the contact grows to a stretch,
 * at a radially held end the free rod curves inwards: else contact grows from the end,
 * at an end that is not radially held a rod in contact does not turn around the wall, since nothing bears the radial
-  moment that this takes: else it leaves the wall there; nor where its stiffness has a step, or a kink that would pull,
+  moment of it: else it leaves it; nor at a step of its stiffness (touching none in a curved hole), a kink that pulls,
 * the rod nowhere reaches the wall within a free stretch: else it touches there,
 * ends of stretches and points of contact keep off steps of a string: else they pass them, and elements with them,
 * the edge of a narrower part of the hole, where the rod touches it, pushes: else the rod leaves it; and so does the
@@ -153,11 +153,10 @@ class PatternedState:
 @lru_cache(maxsize=16)
 def conditions(state: PatternedState) -> tuple[Condition, ...]:
     """All conditions of a state, kept: those at the ends of a step and at what happens within are asked again."""
-    found: list[Condition] = []
     if state.model.soft:
         return ()  # the wall's push is part of the energy: nothing is left to be asked
     solved, pattern = state.solved, state.pattern
-    found += pressing(state, [i for i, on in enumerate(pattern.touching) if on])
+    found = pressing(state, [i for i, on in enumerate(pattern.touching) if on])
     found += apart(state, [i for i, on in enumerate(pattern.touching) if not on])
     for i in range(pattern.breaks):
         place = float(solved.shape.breaks[i])
@@ -181,7 +180,8 @@ def at_steps(state: PatternedState) -> list[Condition]:
         for k in inner:
             s = float(rod.breaks[1 + k])
             if state.pattern.touching[i] and below[k] != above[k]:
-                found.append(Condition(UNHELD, 2 + k, NO_SLOPE - abs(slope_at(shape, s)), s))
+                held = -np.inf if state.problem.bent else NO_SLOPE - abs(slope_at(shape, s))
+                found.append(Condition(UNHELD, 2 + k, held, s))
             if state.pattern.touching[i] and rod.stiffness_kink_sizes[k] < 0.0:
                 length, shortest, _ = kink_gap(state, s)
                 found.append(Condition(UNHELD, 2 + k, shortest - length, s))

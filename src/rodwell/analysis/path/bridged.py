@@ -58,7 +58,7 @@ def bridging(model: RodInHole, until: float, rtol: float, progress: Callable[[fl
     NotConvergedError
         If it was not found how the string lies there.
     """
-    begin = max(unstretched(model.problem), until)
+    begin = max(unstretched(model), until)
     start = bridged(model, begin)
     if start is None and (place := at_top(model, begin)) is not None:
         raise NotConvergedError(
@@ -69,6 +69,11 @@ def bridging(model: RodInHole, until: float, rtol: float, progress: Callable[[fl
         raise NotConvergedError(
             f"how the string lies {where_it_bridges(model.problem)} at F = {begin:.8g} B/L² was not found: no state "
             "whose contacts all push and that keeps inside the hole"
+        )
+    if start.solved.index and model.problem.hole is not None and not model.problem.rod.mixed:
+        raise NotConvergedError(
+            f"at F = {begin:.8g} B/L², where nothing is compressed, the string does not stay in the vertical plane: "
+            "the curved hole presses it to a side from which it slips off; give one that bends it less, or more weight"
         )
     if start.solved.index:
         raise NotConvergedError(

@@ -20,7 +20,7 @@ from rodwell.analysis.loads.derivatives import Derivatives, Sensitivity
 from rodwell.analysis.loads.sensitivity import sensitivities as of_loads
 from rodwell.analysis.off_wall.arrange import solved
 from rodwell.analysis.off_wall.conditions import PatternedState
-from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.path.events import CRITICAL
 from rodwell.analysis.path.follow import load_path
@@ -76,7 +76,7 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
 
 
 def bridged_slopes(state: ContactState) -> tuple[Derivatives, tuple[Derivatives, ...]]:
-    """Derivatives of the load of a state at which a string buckles sideways: by γ, α, Δ; by the data of each section.
+    """Derivatives of the load of a state at which a string buckles sideways: by γ, α, Δ, κ, and its sections' data.
 
     Those of a section are by its "stiffness" and "weight" ratios ("stiffness_factor", "weight_factor" where they
     taper); by its "clearance" ratio where those of its neighbours are others; and by its "upper_end" in L, where it
@@ -101,7 +101,8 @@ def bridged_slopes(state: ContactState) -> tuple[Derivatives, tuple[Derivatives,
         return Value(fine[0], fine[1] + doubt + abs(fine[0] - coarse[0]))
 
     whole = {}
-    for name, size in (("weight", problem.weight), ("alpha", 90.0), ("clearance", problem.clearance)):
+    data = [("weight", problem.weight), ("alpha", 90.0), ("clearance", problem.clearance)]
+    for name, size in data + [("build", problem.build)] * (problem.hole is not None):
 
         def more(x: float, name: str = name, size: float = size) -> tuple[Problem, float]:
             return problem.but(**{name: getattr(problem, name) + x * size}), force
@@ -163,7 +164,7 @@ def _singular(state: PatternedState, direction: FloatArray, problem: Problem, fo
     pattern = replace(state.pattern, edges=tuple(places.get(edge, edge) for edge in state.pattern.edges))
     shape = state.solved.shape
     found = solved(
-        RodInHole(problem), pattern, shape.breaks, force, sampler(shape), degree=shape.chain.degree,
+        rod_in_hole(problem), pattern, shape.breaks, force, sampler(shape), degree=shape.chain.degree,
         elements=state.elements,
     )  # fmt: skip
     if found is None:

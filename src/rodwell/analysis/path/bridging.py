@@ -27,6 +27,7 @@ from rodwell.analysis.off_wall.conditions import (
     PatternedState,
     conditions,
 )
+from rodwell.analysis.off_wall.curved.model import G1, K1, RodOffCurvedWall
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.numerics.stretches.basis import tabulate
@@ -62,9 +63,11 @@ HARDER = 10.0
 """Factor from one stiffness of the springs to the next."""
 
 
-def unstretched(problem: Problem) -> float:
-    """The least end force F at s = 1 under which no part of the straight rod is compressed."""
-    return max(problem.heaviest, 0.0)
+def unstretched(model: RodInHole) -> float:
+    """The least end force F at s = 1 under which no part of the rod is compressed that lies along the hole."""
+    if model.problem.hole is None:
+        return max(model.problem.heaviest, 0.0)
+    return max(-float(np.min(model.resultants(0.0))), 0.0)
 
 
 def bridged(model: RodInHole, load: float) -> PatternedState | None:
@@ -194,12 +197,18 @@ def _assembled(model: RodInHole, load: float, places: FloatArray) -> tuple[Float
     rod, shape = problem.rod, s.shape
     stiffness, weight, lever = (one(s.ravel()).reshape(shape) for one in (rod.stiffness, rod.weight, rod.lever))
     tension = load + problem.axial_weight * lever
+    bend, across, drawn = np.zeros(1), problem.lateral_weight * weight, 0.0
+    if isinstance(model, RodOffCurvedWall):  # it is b(κ + x″)²/2 − N(1 + κx) that is least
+        hole, tension = model.beside(s), model.drive(s, load)
+        bend, across = hole[K1], problem.weight * weight * hole[G1]
+        drawn = tension * bend - stiffness * bend**3
     scale = np.stack([np.ones_like(h), h, np.ones_like(h), h], axis=1)  # of slopes
     w = 0.5 * weights
     matrix = np.einsum("eq,qi,qj->eij", stiffness * w / h[:, None] ** 3, table[2], table[2])
     matrix += np.einsum("eq,qi,qj->eij", tension * w / h[:, None], table[1], table[1])
     matrix *= scale[:, :, None] * scale[:, None, :]
-    push = -problem.lateral_weight / problem.clearance * np.einsum("eq,qi->ei", weight * w * h[:, None], table[0])
+    push = np.einsum("eq,qi->ei", (drawn - across) * w * h[:, None], table[0])
+    push = (push - np.einsum("eq,qi->ei", stiffness * bend * w / h[:, None], table[2])) / problem.clearance
     band, force = np.zeros((4, 2 * places.size)), np.zeros(2 * places.size)
     first = 2 * np.arange(h.size)
     for i in range(4):
@@ -220,6 +229,8 @@ def _pattern(problem: Problem, places: FloatArray, height: FloatArray, few: int)
     """
     radius = _narrowest(problem, places)
     steps, corners = problem.rod.clearance_steps, np.union1d(problem.rod.clearance_steps, problem.rod.sign_changes)
+    if problem.hole is not None:
+        corners = np.union1d(corners, problem.rod.stiffness_steps)
     touching, breaks = [], []
     low, high = height < -radius, height > _upper(problem, radius)
     for left, right in pairwise([0.0, *corners, 1.0]):

@@ -34,7 +34,7 @@ ALLOWED = f"a stiffness from {SOFTEST:g} to {STIFFEST:g} in units B = L = 1; lea
 
 def checked_problem(problem: Problem) -> None:
     """Raise if a rod has no load path here, with the reason."""
-    refuse_holes(problem)
+    refuse_holes(problem, strings=True)
     if not problem.bridges:
         problem.refuse_bridges("load paths off the wall")  # also of clearances that vary without steps
     if problem.outside:

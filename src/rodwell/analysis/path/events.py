@@ -136,7 +136,8 @@ class PathPoint:
         if self.kind == CRITICAL and self.state is not None and self.state.kind == BRIDGED:
             if floats_in_part(self.state.problem):
                 return "the string of sections that sink and float buckles sideways"
-            return "the string that bridges steps of the clearance buckles sideways"
+            over = "that bridges steps of the clearance" if self.state.problem.bridges else "in the curved hole"
+            return f"the string {over} buckles sideways"
         if self.kind == CRITICAL and self.leg == UNLOADING:
             return "the rod lies along the hole again" if self.curved else "the rod is straight again"
         if self.to is None:

@@ -92,33 +92,38 @@ def load_path(
     In a curved hole (``problem.build``) the path begins with the rod that lies along the hole, from which energy and
     shortening count. The hole beside the rod is taken where the undeformed rod is: ``ContactState.own_places`` has a
     state without that. A rod in a drop may leave the wall before it buckles: then the path goes on in the vertical
-    plane, up to where a disturbance out of it grows.
+    plane, up to where a disturbance out of it grows. A string of sections is bent by the hole, the stiffer ones by a
+    larger moment: it is off the wall beside its steps, and is followed as one that bridges steps of its clearance,
+    which it may have too.
 
     Raises
     ------
     InputError
         For a rod outside the cylinder or on top of it, for loads out of range or order, and for a curved hole along an
-        axis, out of the vertical plane, of a string, with a soft wall, or in which the rod lies only in tension.
+        axis, out of the vertical plane, of a string that tapers, with a soft wall, or in which the rod lies only in
+        tension.
     NotConvergedError
         If the straight rod's critical load, or the path's first state, could not be computed.
     """
     checked_problem(problem)
     model = rod_in_hole(problem, checked_wall(problem, wall_stiffness))
     rtol, way = checked_rtol(rtol), checked_control(problem, control, axial_stiffness, spring)
-    if problem.bridges:
+    bridges = problem.bridges or problem.bent
+    if bridges:
         checked_bridging(problem, control, unload_to, mirror)
     if until is None:
-        if not problem.bridges:
+        if not bridges:
             raise InputError("until", None, "is missing: give the end force to which the rod is loaded")
         until = farthest(problem)
     until, unload_to = checked_range(way, until, unload_to)
-    check_tension(problem, way, until=until, unload_to=unload_to)
+    if not bridges:
+        check_tension(problem, way, until=until, unload_to=unload_to)
     seeds = checked_whole("seeds", seeds, 1, 100)
 
     def told(leg: str) -> Callable[[float], str | None] | None:
         return None if progress is None else lambda force: progress(leg, force)
 
-    if problem.bridges:
+    if bridges:
         walks = [bridging(model, until, rtol, told(LOADING))]
     else:
         first_run.begin(problem)

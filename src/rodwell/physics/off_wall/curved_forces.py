@@ -20,7 +20,7 @@ from rodwell.quantities.arrays import FloatArray
 
 
 def in_curved_hole(
-    x: FloatArray, y: FloatArray, bends: FloatArray, rates: FloatArray, drive: FloatArray, twist: float
+    x: FloatArray, y: FloatArray, bends: FloatArray, rates: FloatArray, drive: FloatArray, twist: float | FloatArray
 ) -> InSpace:
     """Tangent and internal force by N₁, N₂, T, from x and y with three derivatives, (4, k) each, and N(s), (k,).
 
@@ -53,8 +53,8 @@ def radially_at_curved_wall(
     shape: tuple[FloatArray, FloatArray, FloatArray],
     bends: FloatArray,
     bend_rates: FloatArray,
-    radius: float,
-    twist: float,
+    radius: float | FloatArray,
+    twist: float | FloatArray,
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
     """Radial moment at a cut of a rod on the wall, its derivatives by φ, φ′ and the place, and the outward force, (k,).
 

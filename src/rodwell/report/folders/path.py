@@ -45,15 +45,16 @@ def write_path(
     InputError
         If ``out`` cannot be written.
     """
+    planar = result.problem.bridges or result.problem.bent
     with whole_folder(out) as folder:
         with mpl.rc_context(RC):
             save_figure(plot_path(result, case=case).figure, folder / "load-path")
-            if result.problem.bridges:
+            if planar:
                 last = result.legs[-1].runs[-1][-1]
                 save_figure(plot_bridging(contact_state(last)).figure, folder / "bridging")
         write_json(result.as_dict(at, barriers), folder / "load-path.json")
         write_load_path(result, folder / "load-path.nc")
-        if not result.problem.bridges:
+        if not planar:
             write_path_page(folder / PAGE, result, case)
         curve = result.curve
         with (folder / "load-path.csv").open("w", encoding="utf-8", newline="") as file:

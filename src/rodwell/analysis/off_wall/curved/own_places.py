@@ -24,13 +24,15 @@ from rodwell.analysis.discrete.curved import (
 )
 from rodwell.analysis.discrete.pieces import PiecewisePolynomial
 from rodwell.analysis.off_wall.conditions import PatternedState
-from rodwell.analysis.off_wall.curved.model import RodOffCurvedWall
+from rodwell.analysis.off_wall.curved.model import STEP, RodOffCurvedWall
 from rodwell.numerics.stretches.bordered import Row, fixed_load
 from rodwell.numerics.stretches.carry import fields_at
 from rodwell.numerics.stretches.newton import solve
 from rodwell.numerics.stretches.walk import row_of, tangent_in_load
 from rodwell.physics.off_wall._curved_density import curved_hole_density
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import Rod
+from rodwell.problem.sections import PLAIN
 from rodwell.quantities.arrays import FloatArray
 
 MOST_ROUNDS = 25
@@ -44,9 +46,6 @@ places settle by the product of curvature and shortening a round."""
 
 PIECES = 64
 """Pieces of the rod, at least, in each of which the hole is a polynomial."""
-
-STEP = 1e-30
-"""Imaginary part of a complex step."""
 
 APART = 1e-6
 """Ends of pieces nearer to each other, in L, make no piece."""
@@ -118,16 +117,18 @@ def _by_bends(state: PatternedState, s: FloatArray, places: FloatArray) -> Float
     first, second = x2 + a * q * k1, y2 + a * q * k2
     axial = -(x1 * x2 + y1 * y2) / a - q * (k1 * x1 + k2 * y1)
     turned = (x1 * y2 - y1 * x2) / (1.0 + a) + q * (x1 * k2 - y1 * k1)
-    e = 0.5 * (first**2 + second**2 + axial**2) + problem.twist * turned - model.drive(s, state.load) * q
+    bent = 0.5 * problem.rod.stiffness(s) * (first**2 + second**2 + axial**2)
+    e = bent + problem.twist * turned - model.drive(s, state.load) * q
     return np.asarray(np.imag(e) / STEP)
 
 
 def _tables_of(state: PatternedState) -> HoleAlong:
     """The hole at the rod's own places, and the force that goes with it."""
     problem, place = state.problem, places_along(state)
+    end = problem.clearance * float(problem.rod.clearance.coefficients[-1, 0])
 
     def climb(s: FloatArray) -> FloatArray:
-        return hole_at(problem, place(s))[1]
+        return np.asarray(problem.rod.weight(s) * hole_at(problem, place(s))[1])
 
     def rate(s: FloatArray) -> FloatArray:
         return np.asarray(problem.weight * climb(s) * step_along(state, s)[1] + _by_bends(state, s, place(s)))
@@ -135,7 +136,7 @@ def _tables_of(state: PatternedState) -> HoleAlong:
     rise, driven = lifted(place.breaks, climb), lifted(place.breaks, rate)
 
     def farther(s: FloatArray) -> FloatArray:
-        return np.asarray(1.0 + problem.clearance * hole_at(problem, place(s))[0][0])
+        return np.asarray(1.0 + end * hole_at(problem, place(s))[0][0])
 
     last = float(farther(np.array([1.0]))[0])
 
@@ -144,7 +145,7 @@ def _tables_of(state: PatternedState) -> HoleAlong:
         offset = (last * state.load - driven(s)) / farther(s) - state.load + problem.weight * lift
         return np.concatenate([hole_at(problem, place(s))[0], lift[None], offset[None]])
 
-    return hole_along(problem.rod, place.breaks, functions)
+    return hole_along(Rod(PLAIN), place.breaks, functions)  # sections do the rest
 
 
 def with_own_places(state: PatternedState, *, near: bool = False) -> PatternedState | None:
@@ -203,6 +204,17 @@ def in_space(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArr
     return points + x[:, None] * frames[:, 0] + y[:, None] * frames[:, 1], frames
 
 
+def _lying_place(problem: Problem, s: FloatArray) -> FloatArray:
+    """The place S₀ (k,) on the axis of an arc beside the rod that lies along it; of each section at its clearance."""
+    rod = problem.rod
+    if not rod.clearance_steps.size:
+        return undeformed_place(problem, s)
+    bend = float(hole_at(problem, np.array([0.5]))[0][0, 0])
+    lengths = np.diff(rod.breaks) / (1.0 + problem.clearance * rod.clearance.coefficients[:, 0] * bend)
+    ahead = np.concatenate([[0.0], np.cumsum(lengths)])
+    return np.asarray(ends_of_lying_rod(problem)[0] + np.interp(s, rod.breaks, ahead))
+
+
 def energy_in_space(state: PatternedState) -> float:
     """Bending, height and torque less the work of the end force, of a state that has its own places, in B/L.
 
@@ -216,20 +228,26 @@ def energy_in_space(state: PatternedState) -> float:
     fields = problem.clearance * fields_at(state.solved.shape, s)[0][:, :3]
     none = np.zeros_like(s)
     assert isinstance(model, RodOffCurvedWall)
-    stored = curved_hole_density(
-        fields.reshape(6, s.size), model.beside(s)[:2], problem.clearance, problem.twist, (none,) * 3, (0.0,) * 3
-    )[0]
-    undeformed, own = undeformed_place(problem, s), places_along(state)
-    risen = problem.weight * (in_space(state, s)[0][:, 2] - height_of_rod(problem, undeformed, none))
-    now, before = (_bending_at_rest(problem, place) for place in (own(s), undeformed))
+    b, radius = problem.rod.stiffness(s), problem.clearance * problem.rod.clearance(s)
+    stored = (
+        b
+        * curved_hole_density(
+            fields.reshape(6, s.size), model.beside(s)[:2], radius, problem.twist / b, (none,) * 3, (0.0,) * 3
+        )[0]
+    )
+    undeformed, own = _lying_place(problem, s), places_along(state)
+    lying = height_of_rod(problem, undeformed, none)
+    lying = lying + (problem.clearance - radius) * hole_at(problem, undeformed)[0][2]
+    risen = problem.weight * problem.rod.weight(s) * (in_space(state, s)[0][:, 2] - lying)
+    now, before = (b * _bending_at_rest(problem, place, radius) for place in (own(s), undeformed))
     end = np.array([1.0])
-    start, last = float(undeformed_place(problem, end)[0]), float(own(end)[0])
+    start, last = float(_lying_place(problem, end)[0]), float(own(end)[0])
     along = start + 0.5 * (last - start) * (nodes + 1.0)
-    travel = 0.5 * (last - start) * float(gauss @ (1.0 + problem.clearance * hole_at(problem, along)[0][0]))
+    travel = 0.5 * (last - start) * float(gauss @ (1.0 + radius[-1] * hole_at(problem, along)[0][0]))
     return float(weights @ (stored + now - before + risen)) - state.load * travel
 
 
-def _bending_at_rest(problem: Problem, places: FloatArray) -> FloatArray:
-    """Bending energy per length of the rod that lies at places (k,) of the hole's axis."""
+def _bending_at_rest(problem: Problem, places: FloatArray, radius: FloatArray) -> FloatArray:
+    """Bending energy per length, over the stiffness, of the rod that lies at places (k,) of the hole's axis."""
     k1, k2, _, _ = hole_at(problem, places)[0]
-    return np.asarray(0.5 * (k1**2 + k2**2) / (1.0 + problem.clearance * k1) ** 2)
+    return np.asarray(0.5 * (k1**2 + k2**2) / (1.0 + radius * k1) ** 2)

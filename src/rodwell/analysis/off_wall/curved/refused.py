@@ -11,8 +11,11 @@ def in_such_a_hole(problem: Problem) -> bool:
     return problem.hole is None or (problem.hole.planar and not problem.sections)
 
 
-def refuse_holes(problem: Problem) -> None:
-    """Raise in a curved hole in which no states off the wall are computed, with the reason."""
+def refuse_holes(problem: Problem, strings: bool = False) -> None:
+    """Raise in a curved hole in which no states off the wall are computed, with the reason.
+
+    ``strings``: those of sections are computed, in the vertical plane.
+    """
     if in_such_a_hole(problem):
         return
     if problem.hole is not None and not problem.hole.planar:
@@ -24,8 +27,18 @@ def refuse_holes(problem: Problem) -> None:
             "hole it lies beside the bottom and moves with the load; how it lies up to where it leaves the wall: "
             "rodwell.lying_rod",
         )  # fmt: skip
+    if problem.axis:
+        raise InputError(
+            "axis", f"{len(problem.axis)} points", "must be left out beside sections: off the wall a string is computed "
+            "in a hole of one curvature; give build, the mean curvature of that piece of the hole, and alpha there",
+        )  # fmt: skip
+    if strings and not problem.tapered:
+        return
     raise InputError(
+        "sections", f"{len(problem.sections)} of them", "must not taper in a curved hole, off its wall: give them as "
+        "several of one stiffness and weight each, or a straight hole",
+    ) if strings else InputError(
         "sections", f"{len(problem.sections)} of them", "must be left out in a curved hole: it bends a stiffer section "
-        "by a larger moment, so that a string is off the wall beside its steps before it buckles "
-        "(rodwell.critical_loads tells over which length); give a uniform rod, or a straight hole",
+        "by a larger moment, so that a string is off the wall beside its steps before it buckles; how it lies and when "
+        "it buckles sideways: rodwell.load_path, `rodwell path`",
     )  # fmt: skip
