@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from rodwell.analysis.off_wall.arrange import at_load
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.following import followed
-from rodwell.analysis.off_wall.happening import BRANCH_POINT, END, FOLD, Followed
+from rodwell.analysis.off_wall.happening import BRANCH_POINT, END, FOLD, Followed, PathEvent
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.resolve import resolved_event
 from rodwell.analysis.off_wall.state import ContactState
@@ -18,9 +19,11 @@ from rodwell.analysis.path.events import CRITICAL, LOADING, Leg, PathPoint
 from rodwell.analysis.path.legs import Walked
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.stretches.chain import ANGLE, ANGLE_RATE
-from rodwell.numerics.stretches.newton import softest
+from rodwell.numerics.stretches.newton import Solved, softest, stiffness_along
+from rodwell.numerics.stretches.walk import locate
 from rodwell.problem.problem import Problem
 from rodwell.problem.words import where_it_bridges
+from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import LARGEST_FORCE
 
 FARTHEST = 10.0
@@ -35,6 +38,10 @@ SHORTER, REPEATS = 0.25, 6
 
 JUST_BEFORE = 1e-9
 """How much less than its buckling load a string must bear without being unstable, as a part of the load."""
+
+HALVINGS, AT_ONCE = 60, 1e-11
+"""How often a step in which several disturbances begin to grow is halved, and the part of the load below which they
+cannot be told apart."""
 
 PASSED_OVER = 1e-3
 """Part of the load by which a change of contact that was not resolved is passed over."""
@@ -114,7 +121,14 @@ def _first_loss(start: PatternedState, until: float, progress: Callable[[float],
             return path
         if path.ended == BRANCH_POINT:
             before = at_load(last, last.load + JUST_BEFORE * abs(last.load))
-            if before is not None and not before.solved.index:
+            steady = before is not None and not before.solved.index
+            if steady and _one_alone(path.events[-1]):
+                return path
+            first = _first_of_several(path.events[-1])
+            if first is not None:
+                states = [*path.states[:-1], first.state]
+                return replace(path, states=states, events=[*path.events[:-1], first])
+            if steady:
                 return path
             largest *= SHORTER
             kept, events, again = path.states[:-2], path.events[:-1], path.states[-2]
@@ -129,6 +143,50 @@ def _first_loss(start: PatternedState, until: float, progress: Callable[[float],
         grown = next((state.load for state in path.states if state.solved.index), path.last.load)
         path.ended = f"several disturbances begin to grow near F = {grown:.8g} B/L², the first of them not told"
     return path
+
+
+def _one_alone(event: PathEvent) -> bool:
+    """Whether no more than one disturbance begins to grow within the step of a branch point."""
+    return event.between is not None and event.between[1].solved.index <= 1
+
+
+def _first_of_several(event: PathEvent) -> PathEvent | None:
+    """Where the first of several disturbances begins to grow within the step of a branch point, however close they are.
+
+    By halves: how many grow is the number of negative eigenvalues of the second variation. None if that many do at the
+    start of the step already, or if a state on the way was not found.
+    """
+    if event.between is None or event.between[0].solved.index:
+        return None
+    steady, growing = event.between
+    for _ in range(HALVINGS):
+        if not growing.solved.index:
+            return None
+        value = _singular_along(softest(growing.solved))
+        if growing.solved.index == 1 and value(growing.solved) < 0.0:
+            break
+        if abs(growing.load - steady.load) <= AT_ONCE * abs(growing.load):
+            value, (steady, growing) = _none_grows, event.between
+            break
+        middle = at_load(steady, 0.5 * (steady.load + growing.load))
+        if middle is None:
+            return None
+        steady, growing = (steady, middle) if middle.solved.index else (middle, growing)
+    at = locate(steady.model, steady.solved, growing.solved, value)
+    if at is None:
+        return None
+    there = PatternedState(steady.pattern, steady.elements, at)
+    return replace(event, state=there, value=value, between=(steady, growing))
+
+
+def _singular_along(direction: FloatArray) -> Callable[[Solved], float]:
+    """A function that vanishes where the second variation is singular along about a direction."""
+    return lambda one: stiffness_along(one, direction)
+
+
+def _none_grows(state: Solved) -> float:
+    """Positive where no disturbance grows, else negative: for several that begin to grow in the same place."""
+    return 0.5 - state.index
 
 
 def _sideways(state: PatternedState) -> bool:
