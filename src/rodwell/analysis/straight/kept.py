@@ -44,9 +44,12 @@ def loads_on_mesh(
 
     # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
     below = -problem.heaviest + 4.0 * float(min(np.min(factors[0]), 0.0)) / np.pi**2 - 1.0
-    guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, held.free]))
-    try:
+    guess, near = None, None
+    if start is None:
         near = wkb_load(problem, 0.5), wkb_load(problem, eigen.block_size(count) + 1.0)
+    else:
+        guess = start[0], np.ascontiguousarray(start[1][:, held.free])
+    try:
         values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below, guess, near)
     except eigen.EigenError as error:
         raise NotConvergedError(f"critical loads: {error}") from None
