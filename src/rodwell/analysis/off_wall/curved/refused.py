@@ -29,8 +29,8 @@ def refuse_holes(problem: Problem, strings: bool = False) -> None:
         )  # fmt: skip
     if problem.axis:
         raise InputError(
-            "axis", f"{len(problem.axis)} points", "must be left out beside sections: off the wall a string takes a hole "
-            "of one curvature; give build, the mean curvature of that piece of the hole, and alpha there",
+            "axis", f"{len(problem.axis)} points", "must be left out beside sections: off the wall a string takes a "
+            "hole of one curvature; give build, the mean curvature of that piece of the hole, and alpha there",
         )  # fmt: skip
     if strings and not problem.tapered:
         return
