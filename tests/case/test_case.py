@@ -127,7 +127,7 @@ def test_a_case_without_dimensions_takes_sections_and_a_bent_hole() -> None:
         ({"sections": "0.5:1,0.5:-2"}, r"dimensionless\.section 2, stiffness = -2"),
         ({"sections": [0.5, 0.5]}, r"dimensionless\.sections"),
         ({"build": 200.0}, r"dimensionless\.build = 200.*radius"),
-        ({"build": 0.1, "sections": "0.5:1:1:1,0.5:2:1:0.8"}, r"dimensionless\.sections.*straight holes"),
+        ({"walk": 0.1, "sections": "0.5:1:1:1,0.5:2:1:0.8"}, r"dimensionless\.sections.*straight holes"),
     ):
         with pytest.raises(InputError, match=what):
             Case.from_dict({"dimensionless": base | wrong})

@@ -190,7 +190,7 @@ def test_what_can_be_moved_stands_in_the_words_of_the_case(field: Engine) -> Non
     [({"ends": "glued"}, "ends = 'glued'"), ({"modes": 99}, "modes = 99"), ({"modes": True}, "modes"),
      ({"nothing": 1.0}, "cannot be moved"), ({"sections": 3}, "sections = 3"),
      ({"sections": "0.5:1"}, "must add up to 1"), ({"sections": "0.5:x,0.5"}, "section 1 = '0.5:x'"),
-     ({"sections": "0.5:1:1:1,0.5:2:1:0.8", "dimensionless.build": 0.1}, "straight holes"),
+     ({"sections": "0.5:1:1:1,0.5:2:1:0.8", "dimensionless.build": 0.1}, "must have one clearance"),
      ({"dimensionless.weight": "15"}, "must be a number"),
      ({"dimensionless.clearance": 2.0}, "clearance = 2"), ({"dimensionless.weight": float("nan")}, "weight")],
 )  # fmt: skip
