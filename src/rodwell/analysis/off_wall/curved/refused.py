@@ -21,7 +21,8 @@ def refuse_holes(problem: Problem, strings: bool = False) -> None:
     if problem.hole is not None and not problem.hole.planar:
         field, value, must = ("walk", str(problem.walk), "be 0")
         if problem.axis:
-            field, value, must = ("axis", f"{len(problem.axis)} points", "stay in a vertical plane")
+            field, value = "axis", f"{len(problem.axis)} points, or stations of a survey, that leave the vertical plane"
+            must = "stay in a vertical plane"
         raise InputError(
             field, value, f"must {must}: a load path begins with the rod that lies in a vertical plane, and in this "
             "hole it lies beside the bottom and moves with the load; how it lies up to where it leaves the wall: "
