@@ -248,7 +248,7 @@ def _range(
     from rodwell.analysis.path.checks import checked_problem  # noqa: PLC0415
 
     checked_problem(problem)
-    if until is not None or problem.bridges or problem.bent:
+    if until is not None or problem.leaves_wall:
         far = None if until is None else _number("--until", until, case, control)
         return far, None if back is None else _number("--unload-to", back, case, control)
     if case is None or control != "force":

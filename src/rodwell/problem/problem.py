@@ -138,6 +138,11 @@ class Problem(Refusals):
         return bool(self.sections) and self.hole is not None
 
     @property
+    def leaves_wall(self) -> bool:
+        """Whether a string is off the wall before it buckles: where it bridges, or where a curved hole bends it."""
+        return self.bridges or self.bent
+
+    @property
     def ramps(self) -> bool:
         """Whether the clearance varies along sections, without steps and kinks: critical loads are known of it."""
         return bool(self.sections) and self.rod.ramps

@@ -36,7 +36,7 @@ def kind_of(state: PatternedState, turns: int) -> str:
     """What a state is that winds so many times around the hole: see :attr:`ContactState.kind`."""
     if turns:
         return HELIX
-    if state.pattern.planar and (state.problem.bridges or state.problem.bent):
+    if state.pattern.planar and state.problem.leaves_wall:
         return BRIDGED
     if not state.everywhere:
         return PARTIAL

@@ -108,7 +108,7 @@ def load_path(
     checked_problem(problem)
     model = rod_in_hole(problem, checked_wall(problem, wall_stiffness))
     rtol, way = checked_rtol(rtol), checked_control(problem, control, axial_stiffness, spring)
-    bridges = problem.bridges or problem.bent
+    bridges = problem.leaves_wall
     if bridges:
         checked_bridging(problem, control, unload_to, mirror)
     if until is None:

@@ -45,7 +45,7 @@ def write_path(
     InputError
         If ``out`` cannot be written.
     """
-    planar = result.problem.bridges or result.problem.bent
+    planar = result.problem.leaves_wall
     with whole_folder(out) as folder:
         with mpl.rc_context(RC):
             save_figure(plot_path(result, case=case).figure, folder / "load-path")

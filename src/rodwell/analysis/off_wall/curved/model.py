@@ -100,13 +100,17 @@ class RodOffCurvedWall(RodInHole):
         """Parameters at an end force, as kernels on the wall take them: the weight is the whole one."""
         return parameters(self.problem, load)
 
-    def _farther(self, k1: Any) -> Any:
+    def farther(self, k1: Any) -> Any:
         """1 + Δk₁ with the clearance at the loaded end: how much farther that moves than a place on the hole's axis."""
         return 1.0 + self.problem.clearance * float(self.given[-1, 3]) * k1
 
+    def _further(self, k1: Any, radius: Any) -> Any:
+        """That over 1 + Δk₁ of the section, which kernels on the wall have: 1 but where clearances have steps."""
+        return self.farther(k1) / (1.0 + radius * k1)
+
     def _drive(self, hole: Any, load: float) -> Any:
         """N = (1 + Δk₁)(F − w A + C)."""
-        return self._farther(hole[K1]) * (load - self.problem.weight * hole[LIFT] + hole[OFFSET])
+        return self.farther(hole[K1]) * (load - self.problem.weight * hole[LIFT] + hole[OFFSET])
 
     def drive(self, s: FloatArray, load: float) -> FloatArray:
         """N (m,): the force that drives the rod at ``s`` along the hole, reduced to its axis, in B/L²."""
@@ -123,17 +127,18 @@ class RodOffCurvedWall(RodInHole):
             out[0, 0] += first
             out[1, 0] += second
         if np.any(rates[:2]):
-            out += self._drift_of_bends(s, u, load, given)
+            hole = self.beside(s).astype(complex)
+            hole[:2] += 1j * STEP * rates[:2]
+            out += self._drift_of_bends(hole, u, load, given)
         return np.asarray(out)
 
-    def _drift_of_bends(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> FloatArray:
+    def _drift_of_bends(self, hole: FloatArray, u: FloatArray, load: float, given: FloatArray) -> FloatArray:
         """The part of k₁′ and k₂′, by a complex step: the densities take k₁ and k₂ as they are."""
-        hole = self.beside(s).astype(complex)
-        hole[:2] += 1j * STEP * self.beside.rates(s)[:2]
         found = (self._on_rim if u.shape[0] == 1 else self._within)(hole, u, load, given)[2]
         b, d = given[0], self.problem.clearance
         slope = b * given[3] / d if u.shape[0] == 1 else b / d
-        return np.stack([np.broadcast_to(slope * np.imag(one) / STEP, s.shape) for one in found]).reshape(u.shape)
+        parts = [np.broadcast_to(slope * np.imag(one) / STEP, u.shape[2:]) for one in found]
+        return np.stack(parts).reshape(u.shape)
 
     def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density on the wall and its derivatives, from the angle with two derivatives, (1, 3, e, q)."""
@@ -152,9 +157,7 @@ class RodOffCurvedWall(RodInHole):
         """The density on the wall of a rod of stiffness 1 with what a hole is there; ``hole`` is written to."""
         b, radius, own = given[0], self.problem.clearance * given[3], self._own(load, given)
         y, y1, y2 = radius * u[0]
-        further = self._farther(hole[K1]) / (
-            1.0 + radius * hole[K1]
-        )  # 1 but where the clearance is not that at the end
+        further = self._further(hole[K1], radius)
         hole[[G1, G2]] *= given[1]
         hole[LIFT], hole[OFFSET] = further * hole[LIFT], further / b * hole[OFFSET]
         own[FORCE] = further * own[FORCE]
@@ -188,7 +191,7 @@ class RodOffCurvedWall(RodInHole):
         loads = self._drive(hole, load) / b, weight * hole[G1], weight * hole[G2]
         return curved_hole_density(
             d * u.reshape(6, *u.shape[2:]), hole[:2], d * given[3], self.problem.twist / b, loads,
-            (self._farther(hole[K1]) / b, 0.0, 0.0),
+            (self.farther(hole[K1]) / b, 0.0, 0.0),
         )  # fmt: skip
 
     def rim_reaction(
@@ -204,8 +207,7 @@ class RodOffCurvedWall(RodInHole):
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, …)."""
         rows = np.moveaxis(self.tables(s.ravel()).reshape(*s.shape, -1), -1, 0)
         radius, own = self.problem.clearance * given[3], self.parameters(load).tolist()
-        k1 = self.beside(s)[K1]
-        further = self._farther(k1) / (1.0 + radius * k1)
+        further = self._further(self.beside(s)[K1], radius)
         rows = np.concatenate([np.broadcast_to(given[0], s.shape)[None], rows[1:]])
         rows[_ACROSS] *= given[1]
         rows[_ALONG] *= further

@@ -106,26 +106,33 @@ def _pieces(state: PatternedState) -> FloatArray:
     return np.concatenate([[0.0], inner[(np.diff(ends)[:-1] > APART) & (1.0 - inner > APART)], [1.0]])
 
 
+def _energy(state: PatternedState, s: FloatArray, bends: FloatArray, drive: FloatArray) -> FloatArray:
+    """Bending and torque less N S′ per length of the rod at places (k,), beside k₁, k₂ (2, k), with N (k,)."""
+    problem, none = state.problem, np.zeros_like(s)
+    b, radius = problem.rod.stiffness(s), problem.clearance * problem.rod.clearance(s)
+    fields = (problem.clearance * fields_at(state.solved.shape, s)[0][:, :3]).reshape(6, s.size)
+    loads = drive / b, none, none
+    above = curved_hole_density(fields, bends, radius, problem.twist / b, loads, (0.0, 0.0, 0.0))[0]
+    return np.asarray(b * (above + _bending_at_rest(bends, radius)) - drive / (1.0 + radius * bends[0]))
+
+
+def _bending_at_rest(bends: FloatArray, radius: FloatArray) -> FloatArray:
+    """Bending energy per length, over the stiffness, of the rod that lies still beside k₁, k₂ (2, k)."""
+    return np.asarray(0.5 * (bends[0] ** 2 + bends[1] ** 2) / (1.0 + radius * bends[0]) ** 2)
+
+
 def _by_bends(state: PatternedState, s: FloatArray, places: FloatArray) -> FloatArray:
     """∂e/∂S − N ∂q/∂S at places (k,) without that of the height: by k₁ and k₂, with a complex step."""
     model, problem = state.model, state.problem
-    (x, x1, x2), (y, y1, y2) = problem.clearance * fields_at(state.solved.shape, s)[0][:, :3]
     assert isinstance(model, RodOffCurvedWall)
-    k1, k2 = hole_at(problem, places)[0][:2] + 1j * STEP * rates_at(problem, places)
-    a = np.sqrt(1.0 - x1**2 - y1**2)
-    q = a / (1.0 - k1 * x - k2 * y)
-    first, second = x2 + a * q * k1, y2 + a * q * k2
-    axial = -(x1 * x2 + y1 * y2) / a - q * (k1 * x1 + k2 * y1)
-    turned = (x1 * y2 - y1 * x2) / (1.0 + a) + q * (x1 * k2 - y1 * k1)
-    bent = 0.5 * problem.rod.stiffness(s) * (first**2 + second**2 + axial**2)
-    e = bent + problem.twist * turned - model.drive(s, state.load) * q
-    return np.asarray(np.imag(e) / STEP)
+    bends = hole_at(problem, places)[0][:2] + 1j * STEP * rates_at(problem, places)
+    return np.asarray(np.imag(_energy(state, s, bends, model.drive(s, state.load))) / STEP)
 
 
 def _tables_of(state: PatternedState) -> HoleAlong:
     """The hole at the rod's own places, and the force that goes with it."""
-    problem, place = state.problem, places_along(state)
-    end = problem.clearance * float(problem.rod.clearance.coefficients[-1, 0])
+    problem, model, place = state.problem, state.model, places_along(state)
+    assert isinstance(model, RodOffCurvedWall)
 
     def climb(s: FloatArray) -> FloatArray:
         return np.asarray(problem.rod.weight(s) * hole_at(problem, place(s))[1])
@@ -134,16 +141,12 @@ def _tables_of(state: PatternedState) -> HoleAlong:
         return np.asarray(problem.weight * climb(s) * step_along(state, s)[1] + _by_bends(state, s, place(s)))
 
     rise, driven = lifted(place.breaks, climb), lifted(place.breaks, rate)
-
-    def farther(s: FloatArray) -> FloatArray:
-        return np.asarray(1.0 + end * hole_at(problem, place(s))[0][0])
-
-    last = float(farther(np.array([1.0]))[0])
+    last = model.farther(hole_at(problem, place(np.array([1.0])))[0][0])
 
     def functions(s: FloatArray) -> FloatArray:
-        lift = rise(s)
-        offset = (last * state.load - driven(s)) / farther(s) - state.load + problem.weight * lift
-        return np.concatenate([hole_at(problem, place(s))[0], lift[None], offset[None]])
+        here, lift = hole_at(problem, place(s))[0], rise(s)
+        offset = (last * state.load - driven(s)) / model.farther(here[0]) - state.load + problem.weight * lift
+        return np.concatenate([here, lift[None], offset[None]])
 
     return hole_along(Rod(PLAIN), place.breaks, functions)  # sections do the rest
 
@@ -225,29 +228,15 @@ def energy_in_space(state: PatternedState) -> float:
     half = 0.5 * np.diff(breaks)
     s = (breaks[:-1, None] + half[:, None] * (nodes + 1.0)).ravel()
     weights = (half[:, None] * gauss).ravel()
-    fields = problem.clearance * fields_at(state.solved.shape, s)[0][:, :3]
-    none = np.zeros_like(s)
     assert isinstance(model, RodOffCurvedWall)
-    b, radius = problem.rod.stiffness(s), problem.clearance * problem.rod.clearance(s)
-    stored = (
-        b
-        * curved_hole_density(
-            fields.reshape(6, s.size), model.beside(s)[:2], radius, problem.twist / b, (none,) * 3, (0.0,) * 3
-        )[0]
-    )
-    undeformed, own = _lying_place(problem, s), places_along(state)
-    lying = height_of_rod(problem, undeformed, none)
-    lying = lying + (problem.clearance - radius) * hole_at(problem, undeformed)[0][2]
+    none, b, radius = np.zeros_like(s), problem.rod.stiffness(s), problem.clearance * problem.rod.clearance(s)
+    undeformed = _lying_place(problem, s)
+    (k1, k2, up, _), _ = hole_at(problem, undeformed)
+    lying = height_of_rod(problem, undeformed, none) + (problem.clearance - radius) * up
     risen = problem.weight * problem.rod.weight(s) * (in_space(state, s)[0][:, 2] - lying)
-    now, before = (b * _bending_at_rest(problem, place, radius) for place in (own(s), undeformed))
+    bent = _energy(state, s, model.beside(s)[:2], none) - b * _bending_at_rest(np.stack([k1, k2]), radius)
     end = np.array([1.0])
-    start, last = float(_lying_place(problem, end)[0]), float(own(end)[0])
+    start, last = float(_lying_place(problem, end)[0]), float(places_along(state)(end)[0])
     along = start + 0.5 * (last - start) * (nodes + 1.0)
-    travel = 0.5 * (last - start) * float(gauss @ (1.0 + radius[-1] * hole_at(problem, along)[0][0]))
-    return float(weights @ (stored + now - before + risen)) - state.load * travel
-
-
-def _bending_at_rest(problem: Problem, places: FloatArray, radius: FloatArray) -> FloatArray:
-    """Bending energy per length, over the stiffness, of the rod that lies at places (k,) of the hole's axis."""
-    k1, k2, _, _ = hole_at(problem, places)[0]
-    return np.asarray(0.5 * (k1**2 + k2**2) / (1.0 + radius * k1) ** 2)
+    travel = 0.5 * (last - start) * float(gauss @ model.farther(hole_at(problem, along)[0][0]))
+    return float(weights @ (bent + risen)) - state.load * travel

@@ -19,7 +19,7 @@ def refuse_holes(problem: Problem, strings: bool = False) -> None:
     if in_such_a_hole(problem):
         return
     if problem.hole is not None and not problem.hole.planar:
-        field, value, must = ("walk", str(problem.walk), "be 0")
+        field, value, must = "walk", str(problem.walk), "be 0"
         if problem.axis:
             field, value = "axis", f"{len(problem.axis)} points, or stations of a survey, that leave the vertical plane"
             must = "stay in a vertical plane"
@@ -33,13 +33,14 @@ def refuse_holes(problem: Problem, strings: bool = False) -> None:
             "axis", f"{len(problem.axis)} points", "must be left out beside sections: off the wall a string takes a "
             "hole of one curvature; give build, the mean curvature of that piece of the hole, and alpha there",
         )  # fmt: skip
-    if strings and not problem.tapered:
-        return
-    raise InputError(
-        "sections", f"{len(problem.sections)} of them", "must not taper in a curved hole, off its wall: give them as "
-        "several of one stiffness and weight each, or a straight hole",
-    ) if strings else InputError(
-        "sections", f"{len(problem.sections)} of them", "must be left out in a curved hole: it bends a stiffer section "
-        "by a larger moment, so that a string is off the wall beside its steps before it buckles; how it lies and when "
-        "it buckles sideways: rodwell.load_path, `rodwell path`",
-    )  # fmt: skip
+    if not strings:
+        raise InputError(
+            "sections", f"{len(problem.sections)} of them", "must be left out in a curved hole: it bends a stiffer "
+            "section by a larger moment, so that a string is off the wall beside its steps before it buckles; how it "
+            "lies and when it buckles sideways: rodwell.load_path, `rodwell path`",
+        )  # fmt: skip
+    if problem.tapered:
+        raise InputError(
+            "sections", f"{len(problem.sections)} of them", "must not taper in a curved hole, off its wall: give them "
+            "as several of one stiffness and weight each, or a straight hole",
+        )  # fmt: skip
