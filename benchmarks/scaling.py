@@ -39,7 +39,7 @@ WEIGHTS = tuple(10.0**k for k in range(1, 10))
 INCLINATIONS = (90.0, 60.0, 0.0)
 MODES = (1, 3, 10, 30, 100)
 PROBLEMS = (1, 10, 100)
-BRIDGED = (10, 30, 100, 300)
+BRIDGED = (10, 30, 100, 300, 1_000)
 JOINTS = (10, 100, 300, 1_000, 3_000, 10_000)
 FOUNDATIONS = (1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16)
 

@@ -19,14 +19,16 @@ NEARLY = 1e-6
 
 def show_joints(file: str, as_json: bool) -> None:
     """Print the critical load of an endless string of the joint of a case, or all numbers as JSON."""
-    from rodwell.analysis.endless.jointed import jointed_string  # noqa: PLC0415
+    from rodwell.analysis.endless.jointed import FEWEST, jointed_string  # noqa: PLC0415
 
-    case = _of_one_joint(file)
+    case, count = _of_one_joint(file)
     found = jointed_string(case.problem)
     scales = case.scales
+    finite = None if count < FEWEST else [Value(load, found.load.error) for load in found.of_joints(count)]
     if as_json:
         si = {} if scales is None else {"load_si": scales.si(found.load, "force")}
-        print_json({"title": case.title, **found.as_dict(), **si})
+        of_count = {} if finite is None else {"string": {"joints": count, "load": [one.as_dict() for one in finite]}}
+        print_json({"title": case.title, **found.as_dict(), **si, **of_count})
     else:
         sag, room = (_size(case, number, "length", "L") for number in (found.sag, found.room))
         spread = _size(case, found.spread.times(-1.0))
@@ -35,6 +37,12 @@ def show_joints(file: str, as_json: bool) -> None:
             waves = f"in waves of {plain(2.0 * math.pi / found.phase, 3)} joints"
         wrapped(f"{case.title}: an endless string of such joints, lying on its tool joints.")
         wrapped(f"It buckles sideways at {_load(case, found.load.times(-1.0))} of axial compression, {waves}.")
+        if finite is not None:
+            most = _load(case, finite[1].times(-1.0))
+            wrapped(
+                f"A string of {count} of them, its ends held against rolling, buckles between that and {most}: the "
+                "difference falls with the square of the number of joints; for a few of them it is no bound."
+            )
         wrapped(
             f"Each of the two edges of a tool joint bears {_size(case, found.edge_force)}; the body hangs {sag} below "
             f"its ends there, and would touch the wall at {room}."
@@ -46,17 +54,17 @@ def show_joints(file: str, as_json: bool) -> None:
         )
 
 
-def _of_one_joint(file: str) -> Case:
-    """The case, with one joint where its string has several that are alike: the others are what it repeats."""
+def _of_one_joint(file: str) -> tuple[Case, int]:
+    """The case of one joint, where its string has several that are alike, and how many: they are what it repeats."""
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.case.file import read_case  # noqa: PLC0415
 
     read = read_case(file)
     pipes = read.data.get("string")
     if not (isinstance(pipes, list) and len(pipes) == 1 and isinstance(pipes[0], dict) and "joints" in pipes[0]):
-        return Case.read(read)
+        return Case.read(read), 1
     data = {**read.data, "string": [{**pipes[0], "joints": 1}]}
-    return Case.from_dict(data, source=read.source, folder=read.folder)
+    return Case.from_dict(data, source=read.source, folder=read.folder), int(pipes[0]["joints"])
 
 
 def _load(case: Case, load: Value) -> str:

@@ -58,9 +58,9 @@ def period(problem: Problem, compression: float) -> Array:
     return np.asarray(half @ spring @ body @ spring @ half)
 
 
-def clamped(count: int, compression: float) -> float:
+def clamped(count: int, compression: float, of: Problem = PERIOD) -> float:
     """Zero where a string of so many joints between clamped ends buckles sideways."""
-    whole = np.linalg.matrix_power(period(PERIOD, compression), count)
+    whole = np.linalg.matrix_power(period(of, compression), count)
     return float(whole[0, 2] * whole[1, 3] - whole[0, 3] * whole[1, 2])
 
 
@@ -130,6 +130,22 @@ def test_finite_strings_come_down_to_the_endless_one() -> None:
     assert (twelve - endless) / (many - endless) == pytest.approx(4.0, rel=0.2)
 
 
+@pytest.mark.parametrize("weight", [33.0 / 216.0, 1e-3])
+def test_where_a_string_of_so_many_joints_buckles_is_told(weight: float) -> None:
+    """Waves of one joint, and of many: between clamped ends, by transfer matrices; the first of the loads of each."""
+    period = PERIOD.but(weight=weight)
+    found = jointed_string(period)
+    endless = -found.load.value
+    for count in (12, 24):
+        least, most = (-load for load in found.of_joints(count))
+        grid = np.linspace(0.99 * least, least + 1.5 * (most - least), 400)
+        signs = np.sign([clamped(count, p, period) for p in grid])
+        first = grid[int(np.argmax(signs[1:] != signs[:-1]))]
+        assert endless + 0.85 * found.end_effect / count**2 < first < most
+    with pytest.raises(InputError, match="at least 3"):
+        found.of_joints(2)
+
+
 def test_light_joints_are_a_bed_of_their_weight() -> None:
     """Waves much longer than a joint: 2√(Bw/Δ) of the means, Δ that of the tool joints."""
     found = jointed_string(PERIOD.but(weight=1e-6, clearance=0.01))
@@ -149,9 +165,14 @@ def test_a_drill_pipe_buckles_far_below_the_load_of_its_spread_weight(tmp_path: 
     assert -154e3 < data["load_si"]["value"] < -148e3
     assert data["spread_load"]["value"] / data["load"]["value"] == pytest.approx(263.0 / 151.0, rel=0.03)
     file.write_text(CASE.replace("joints = 1", "joints = 12"), encoding="utf-8")  # one of them is the period
-    assert json.loads(CliRunner().invoke(cli, ["endless", "--joint", str(file), "--json"]).output) == data
+    of_twelve = json.loads(CliRunner().invoke(cli, ["endless", "--joint", str(file), "--json"]).output)
+    twelve = of_twelve.pop("string")
+    assert of_twelve == data
+    assert twelve["joints"] == 12
+    assert twelve["load"][0] == data["load"]
     told = " ".join(CliRunner().invoke(cli, ["endless", "--joint", str(file)]).output.split())
     assert "opposite sides" in told
+    assert "A string of 12 of them" in told
     refused = CliRunner().invoke(cli, ["endless", "--joint", str(file), "--beta", "3"])
     assert "--beta = 3.0: does not go with --joint" in str(refused.exception)
 

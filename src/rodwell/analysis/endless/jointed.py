@@ -34,6 +34,9 @@ SMALL = 4.0
 ROUND_OFF = 1e-14
 """Of the traces, in their squares; of numbers in closed form, in these."""
 
+FEWEST = 3
+"""Joints of a finite string that is compared with the endless one."""
+
 SAMPLES = 33
 """Places in each section at which the shape is looked at."""
 
@@ -57,6 +60,9 @@ class JointedString:
         How far the body hangs below its ends at that load, in L.
     room
         How far it may before it touches the wall, in L.
+    end_effect
+        What a string of n joints needs more, times n², as n grows: π²P″(κ)/2 with the compression P(κ) at which the
+        wave of phase κ begins to grow, in B/L²; see :meth:`of_joints`.
     spread
         The load with the mean weight spread along the tool joints' clearance, −2√(B̄ w̄/Δ) with 1/B̄ the mean of 1/B, in
         B/L²: what a bed in place of the joints would give. It is no bound.
@@ -68,7 +74,24 @@ class JointedString:
     edge_force: Value
     sag: Value
     room: Value
+    end_effect: float
     spread: Value
+
+    def of_joints(self, count: int) -> tuple[float, float]:
+        """Between which axial forces a string of so many joints buckles sideways: (least, most compressed).
+
+        In B/L², tension positive; its ends are held against rolling. The wave of an endless string swells and dies away
+        along a finite one: in half a sine wave over all its joints, or over two less where clamped ends keep the
+        outermost straight. To second order in 1/n: no bound for a few joints.
+
+        Raises
+        ------
+        InputError
+            If ``count`` is less than 3.
+        """
+        if count < FEWEST:
+            raise InputError("count", count, f"must be at least {FEWEST}: the difference is that of many joints")
+        return self.load.value, self.load.value - self.end_effect / (count - 2) ** 2
 
     def as_dict(self) -> dict[str, Any]:
         """All numbers, units B = L = 1 of one period."""
@@ -78,6 +101,7 @@ class JointedString:
             "edge_force": self.edge_force.as_dict(),
             "sag": self.sag.as_dict(),
             "room": self.room.as_dict(),
+            "end_effect": self.end_effect,
             "spread_load": self.spread.as_dict(),
             "unit": "B/L^2, lengths in L, the length of one joint",
             "convention": "axial force, tension positive",
@@ -124,7 +148,7 @@ def jointed_string(problem: Problem) -> JointedString:
     mean = math.sqrt(problem.lateral_weight * rod.whole_weight / (rod.compliance * _radius(problem)))
     return JointedString(
         problem, Value(-compression, noise + SMALL * slope**2 * compression), math.acos(0.5 * _softest(trace)),
-        _closed(_edge_force(problem)), sag, _closed(_room(problem)), _closed(-2.0 * mean),
+        _closed(_edge_force(problem)), sag, _closed(_room(problem)), _end_effect(trace, rate), _closed(-2.0 * mean),
     )  # fmt: skip
 
 
@@ -194,6 +218,17 @@ def _least(problem: Problem, compression: float) -> float:
     trace, rest = _traces(problem, compression)
     mu = _softest(trace)
     return mu**2 - trace * mu + rest - 2.0
+
+
+def _end_effect(trace: float, rate: float) -> float:
+    """π²P″(κ)/2 where f(P, μ) = μ² − tμ + … − 2 vanishes, ``rate`` = ∂f/∂P there: P″ = P_μμ μ′² + P_μ μ″, μ = 2 cos κ.
+
+    Where μ lies within its range f is least there, so that P_μ = 0; else μ′ = 0.
+    """
+    mu = _softest(trace)
+    of_mu, phase = -(2.0 * mu - trace) / rate, math.acos(0.5 * mu)
+    curvature = -2.0 / rate * (2.0 * math.sin(phase)) ** 2 - 2.0 * math.cos(phase) * of_mu
+    return 0.5 * math.pi**2 * curvature
 
 
 def _sag(problem: Problem, compression: float, noise: float) -> tuple[Value, float]:

@@ -59,8 +59,8 @@ MENDS, ORDER = 6, (LOST, LEAVES_EDGE, GROWS_AT_END, GROWS, TOUCHES)
 SIZES = (3e-3, 1e-3, 2e-4, 1e-2)
 """Lengths in L with which contact begins that is missed beside an end or at a point: the first that gives a state."""
 
-HARDER = 10.0
-"""Factor from one stiffness of the springs to the next."""
+HARDER, DECADES = 10.0, 14
+"""Factor from one stiffness of the springs to the next; and how many of a bed from which a beam is let down."""
 
 
 def unstretched(model: RodInHole) -> float:
@@ -72,8 +72,14 @@ def unstretched(model: RodInHole) -> float:
 
 def bridged(model: RodInHole, load: float) -> PatternedState | None:
     """How the string lies at an end force under which a beam without walls is stable; None if that was not found."""
+    steps = model.problem.rod.clearance_steps.size
+    return _of_beam(model, load) or (_of_beam(model, load, let_down=True) if steps else None)
+
+
+def _of_beam(model: RodInHole, load: float, *, let_down: bool = False) -> PatternedState | None:
+    """The state with the contacts of a beam, which is lowered on soft springs or let down from a bed."""
     try:
-        places, height = _beam(model, load)
+        places, height = _beam(model, load, let_down=let_down)
     except np.linalg.LinAlgError:  # it would buckle without walls: there may be several states
         return None
     seen = set()
@@ -141,8 +147,12 @@ def _highest(steps: FloatArray) -> float:
     return float(np.max(steps)) or 1.0
 
 
-def _beam(model: RodInHole, load: float) -> tuple[FloatArray, FloatArray]:
-    """Nodes of a beam (n,), and its height above the hole's axis and slope there in Δ, in turn, (2n,)."""
+def _beam(model: RodInHole, load: float, *, let_down: bool = False) -> tuple[FloatArray, FloatArray]:
+    """Nodes of a beam (n,), and its height above the hole's axis and slope there in Δ, in turn, (2n,).
+
+    ``let_down``: from a bed of springs at all nodes, which keep the beam of very many joints, whose own stiffness is
+    lost in round-off beside its length, until the springs of the wall do.
+    """
     problem, breaks = model.problem, model.problem.rod.breaks
     per_length = np.maximum(PER_BRIDGE / _own_lengths(problem), PER_WAVE * wavenumbers(model, load))
     numbers = np.maximum(np.ceil(np.diff(breaks) * per_length), FEWEST)
@@ -152,12 +162,20 @@ def _beam(model: RodInHole, load: float) -> tuple[FloatArray, FloatArray]:
     band, force = _assembled(model, load, places)
     radius, held = _narrowest(problem, places), _held(problem, places.size)
     walls = -radius, _upper(problem, radius)
-    cholesky_banded(without_held(band, held), lower=True)
+    if not let_down or load < unstretched(model):  # stretched it is stable, even where round-off hides it
+        cholesky_banded(without_held(band, held), lower=True)
     height = np.zeros(2 * places.size)
-    height[::2] = walls[0]
     size = _sag(problem)
-    for stiffness in size * HARDER ** np.arange(-6.0, 1.0):
-        height = on_springs(band, force, walls, held, stiffness, height)
+    height[::2] = walls[0]
+    if not let_down:
+        for stiffness in size * HARDER ** np.arange(-6.0, 1.0):
+            height = on_springs(band, force, walls, held, stiffness, height)
+        return places, height
+    for bed in (*(size / HARDER ** np.arange(DECADES)), 0.0):
+        on_bed, pushed = band.copy(), force.copy()
+        on_bed[0, ::2] += bed
+        pushed[::2] += bed * walls[0]
+        height = on_springs(on_bed, pushed, walls, held, size, height)
     return places, height
 
 
