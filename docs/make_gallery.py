@@ -20,6 +20,7 @@ ORDER = {
         "broken_symmetry",
         "snap_to_coil",
         "load_path",
+        "build_path",
         "endless",
         "lock_up",
         "column",
@@ -52,6 +53,7 @@ CHECKED = {
     "lock_up": "length by correlation in closed form, exact ones by quadrature of the endless rod's states: to 1e-8",
     "load_path": "loads of two other programs that let the rod leave the wall, to 1e-7: limit points at −147.1580802 "
     "and −103.6731326",
+    "build_path": "buckling and lift-off of the rod kept on the wall, which another model computes: to 1e-9 and 1e-8",
     "column": "14.3626 of Fig. 9; 74.628569 of (87)",
     "twist": "reflection exchanges the arms and the sign of T₁; T₁ > 0 stabilises up to a limit, section 4.2",
     "guidewire": "contact pressure of a uniform helix from (52)–(55), written out in the script; π² for pinned ends",

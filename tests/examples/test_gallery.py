@@ -111,6 +111,16 @@ def load_path() -> None:
     assert found["unloading fold"] == pytest.approx(-103.6731326, abs=1e-7)
 
 
+def build_path() -> None:
+    """The rod kept on the wall; the snap is to a helix, and the way back ends where the rod lies along the hole."""
+    found, kept = run("build_path"), rodwell.follow(rodwell.Problem(15.0, build=0.2), until=-250.0)
+    assert kept.lift_off is not None
+    assert found["loading critical"] == pytest.approx(kept.force[0], rel=1e-9)
+    assert found["loading lift_off"] == pytest.approx(kept.lift_off.force, rel=1e-8)
+    assert found["loading snap"] == found["loading fold"]
+    assert found["unloading critical"] == pytest.approx(found["loading critical"], rel=1e-9)
+
+
 def helix() -> None:
     """F = −(2B/Δ²) sin²η cos η and p = −B sin⁴η/Δ³; the largest load is 4/(3√3) B/Δ²."""
     found = run("helix")
@@ -193,8 +203,9 @@ def endless() -> None:
 CHECKS: dict[str, Callable[[], None]] = {
     check.__name__: check
     for check in (
-        drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
-        lift_off, lift_off_map, envelope, formulas, twist, wall_moments, heavy_weight, well, column, endless, lock_up,
+        drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, build_path, helix,
+        guidewire, lift_off, lift_off_map, envelope, formulas, twist, wall_moments, heavy_weight, well,
+        column, endless, lock_up,
         build_section, bent_vessel, surveyed_well, two_casings, tapered_guidewire,
     )
 }  # fmt: skip
