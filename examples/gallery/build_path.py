@@ -1,8 +1,8 @@
 """Beyond lift-off in a hole that builds: the curve holds the rod on its wall far longer than a straight hole does.
 
 The same rod as in the load path of a straight hole, on the outside of an arc of 0.2 rad. It buckles and lifts off at
-about twice the compression, snaps into a helix, and on the way back (dashed) comes off the wall and falls back to the
-shape in which it lies along the hole.
+about twice the compression and snaps to a helix of two turns. On the way back (dashed) it loses one turn, then the
+other, before it lies along the hole again.
 """
 
 import rodwell
