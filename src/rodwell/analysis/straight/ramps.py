@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.discrete.family import spline_ends
+from rodwell.analysis.discrete.family import parameters
 from rodwell.analysis.discrete.meshes import linear_space
-from rodwell.analysis.straight.lying_loads import Found, below_all
+from rodwell.analysis.discrete.ramped import along_ramps
+from rodwell.analysis.straight.lying_loads import Found
+from rodwell.analysis.straight.lying_pencil import Pencil, below_all
 from rodwell.analysis.straight.refining import refined_loads
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria import eigen
 from rodwell.numerics.splines.spaces import SplineSpace
-from rodwell.physics.on_wall.ramps import contact_parts, variation_factors
+from rodwell.physics.on_wall.ramps import axial_resultant, strand, wall_at
 from rodwell.problem.clearances import ALL_SMOOTH, LEAST, SMOOTH
 from rodwell.problem.problem import Problem
 from rodwell.problem.profile import Profile
@@ -19,8 +21,8 @@ from rodwell.problem.rod import Rod
 from rodwell.quantities.arrays import FloatArray, IntArray
 from rodwell.quantities.value import Peak
 
-NODES = 10
-"""Places in a section through which the contact, a polynomial of degree 7 at most, is known."""
+NODES, LAST = 28, 3
+"""Places in a section through which the contact is known, and coefficients at the end that tell how well."""
 
 ROUND_OFF = 1e4 * np.finfo(float).eps
 """Round-off in a fourth derivative, as a part of the clearance over the fourth power of the section's length."""
@@ -35,37 +37,43 @@ def _derivatives(profile: Profile, orders: int, places: FloatArray, piece: IntAr
     return out
 
 
-def _parts(
-    problem: Problem, places: FloatArray, piece: IntArray
-) -> tuple[tuple[FloatArray, FloatArray], FloatArray, FloatArray, FloatArray]:
-    """P at F = 0 and by F; b; N at F = 0; Δ: at places (m,) in sections (m,)."""
-    rod = problem.rod
-    stiffness = _derivatives(rod.stiffness, 3, places, piece)
-    clearance = [problem.clearance * one for one in _derivatives(rod.clearance, 5, places, piece)]
-    weight, lever = (one.in_pieces(places, piece) for one in (rod.weight, rod.lever))
-    contact = contact_parts(problem.foundation, problem.axial_weight, stiffness, clearance, weight, lever)
-    return contact, stiffness[0], problem.axial_weight * lever, clearance[0]
+def contact_on_ramps(problem: Problem, places: FloatArray, rows: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Contact force per length in B/L³ of the rod that lies, towards the axis, at F = 0 and by F, at places (m,)."""
+    at_rest, pushed = (
+        -strand(places, np.zeros((4, places.size)), rows.T, parameters(problem, force)).pressure for force in (0.0, 1.0)
+    )
+    return at_rest, pushed - at_rest
+
+
+def axial_contact(problem: Problem, force: float) -> float:
+    """How much the wall pushes the lying rod along the hole in all, in B/L²: N(0) is F less the axial weight, and this.
+
+    Positive where it pushes towards s = 1, as a hole that widens towards s = 1 does: it adds to the tension below.
+    """
+    given = along_ramps(problem)(np.zeros(1)).T
+    start = axial_resultant(np.zeros(1), given, wall_at(np.zeros(1), given), parameters(problem, force))
+    return float(start[0]) - force + problem.hung_weight
 
 
 def least_contact_on_ramps(problem: Problem, force: float) -> Peak:
     """Least contact force per length in B/L³ of the rod that lies on the wall, and where; below 0 it would pull.
 
-    ``force`` is the end force at s = 1 in B/L², tension positive. Between ends of sections the contact force is a
-    polynomial, whose extremes are exact; in each section the one towards an end counts there.
+    ``force`` is the end force at s = 1 in B/L², tension positive. In each section the contact force is taken as the
+    polynomial through NODES places, whose extremes are exact; in each the one towards an end counts there.
     """
     breaks, sign = problem.rod.breaks, -1.0 if problem.outside else 1.0
     x = 0.5 - 0.5 * np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
     n, lengths = breaks.size - 1, np.diff(breaks)
-    (at_rest, by_force), *_ = _parts(
-        problem, (breaks[:-1, None] + lengths[:, None] * x).ravel(), np.repeat(np.arange(n), NODES)
-    )
+    places = (breaks[:-1, None] + lengths[:, None] * x).ravel()
+    at_rest, by_force = contact_on_ramps(problem, places, along_ramps(problem)(places))
     values = sign * (at_rest + force * by_force).reshape(n, NODES)
     rows = np.linalg.solve(np.polynomial.chebyshev.chebvander(2.0 * x - 1.0, NODES - 1), values.T).T
     found = [_least(np.polynomial.Chebyshev(row)) for row in rows]
     k = int(np.argmin([value for value, _ in found]))
     shortest = float(np.min(lengths[problem.rod.tapers("clearance")]))
     noise = ROUND_OFF * problem.clearance * problem.rod.stiffness_range[1] / shortest**4
-    return Peak(found[k][0], float(noise) + 64.0 * float(np.finfo(float).eps) * float(np.max(np.abs(values))),
+    noise += float(np.max(np.abs(rows[:, -LAST:])))
+    return Peak(found[k][0], noise + 64.0 * float(np.finfo(float).eps) * float(np.max(np.abs(values))),
                 float(breaks[k] + lengths[k] * found[k][1]))  # fmt: skip
 
 
@@ -169,7 +177,7 @@ def refuse_pull(problem: Problem, force: float) -> None:
 
 
 def loads_on_ramps(problem: Problem, count: int, rtol: float) -> Found:
-    """Critical loads of the rod that lies on a wall whose clearance varies, to the order of Δ′².
+    """Critical loads of the rod that lies on a wall whose clearance varies, whatever its slope.
 
     Only those at which the wall presses the rod everywhere: at higher compression it has left the wall.
 
@@ -198,20 +206,15 @@ def _solve(
     problem: Problem, space: SplineSpace, count: int, start: tuple[FloatArray, FloatArray] | None
 ) -> tuple[FloatArray, FloatArray]:
     """λ = −F, rising, and full coefficient vectors (k, size), k ≥ ``count``."""
-    of_k, of_g = variation_factors(*_parts(problem, space.points, problem.rod.clearance.piece_of(space.points)))
-    held = spline_ends(problem).among(space.size)
-    stiffness, gram = held.free_part(space.form(of_k)), held.free_part(space.form(of_g))
-
-    def full(block: FloatArray) -> FloatArray:
-        return np.array([held.spread(free) for free in block])
+    pencil = Pencil(problem, space)
 
     def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
-        whole = full(block)
-        return space.grams(of_k, whole)[0], space.grams(of_g, whole)[0]
+        return pencil.gram(pencil.factors[0], block), pencil.gram(pencil.factors[1], block)
 
-    guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, held.free]))
+    guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, pencil.held.free]))
     try:
-        values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below_all(stiffness, gram), guess)
+        below = below_all(pencil.k, pencil.g)
+        values, vectors = eigen.lowest(pencil.k, pencil.g, quadrature, count, below, guess)
     except eigen.EigenError as error:
         raise NotConvergedError(f"critical loads: {error}") from None
-    return values, full(vectors)
+    return values, pencil.full(vectors)

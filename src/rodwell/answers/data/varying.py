@@ -26,7 +26,7 @@ def varying_dict(found: Varying) -> dict[str, Any]:
             for one in case.pairs
         ],
         "critical_loads": [mode.load.as_dict() for mode in found.critical],
-        "slope_squared": found.critical.slope_squared,
+        "axial_contact": found.critical.axial_contact,
         "least_contact": _peak(found.least),
         "applied": [
             {"given": load.given, "at": "bottom" if load.bottom else "top", "force": load.force,

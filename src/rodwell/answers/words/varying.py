@@ -5,7 +5,6 @@ from __future__ import annotations
 from rodwell.answers.result.varying import Varying
 from rodwell.answers.words.advice import BAD, GOOD, OPEN, Status
 from rodwell.answers.words.wording import forces_of, place_text, size_text
-from rodwell.quantities.text import plain
 from rodwell.quantities.value import Value
 
 
@@ -15,7 +14,7 @@ def varying_sentences(found: Varying) -> list[str]:
         verdict(found),
         *(_under(found, i) for i in range(len(found.applied))),
         _lies(found),
-        *varying_limits(found),
+        *varying_limits(),
     ]
 
 
@@ -28,11 +27,9 @@ def verdict(found: Varying) -> str:
     return f"The rod lies on a wall whose clearance varies, and {stable}buckles at {load}."
 
 
-def varying_limits(found: Varying) -> tuple[str, ...]:
-    """What is left out, and what is not computed."""
-    size = plain(found.critical.slope_squared, 2)
+def varying_limits() -> tuple[str, ...]:
+    """What is not computed."""
     return (
-        f"Left out are terms of the order of the square of the wall's slope, {size} of a load.",
         "Not computed where the clearance varies: what the rod does after it has buckled, lift-off, stress, formulas "
         "of practice beside it.",
     )
@@ -41,7 +38,12 @@ def varying_limits(found: Varying) -> tuple[str, ...]:
 def _lies(found: Varying) -> str:
     case, least = found.case, found.least
     size = size_text(case.scales, least, "force_per_length", "B/L³")
-    return f"Then the wall presses the rod everywhere, least by {size}, {place_text(case, Value(least.s))}."
+    pushed = size_text(case.scales, Value(abs(found.critical.axial_contact)), "force", "B/L²")
+    end = f"the end s = {1 if found.critical.axial_contact < 0.0 else 0}"
+    return (
+        f"Then the wall presses the rod everywhere, least by {size}, {place_text(case, Value(least.s))}, and pushes it "
+        f"along the hole with {pushed} in all, towards {end}."
+    )
 
 
 def _under(found: Varying, number: int) -> str:

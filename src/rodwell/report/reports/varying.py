@@ -18,7 +18,7 @@ PICTURE = "modes"
 def varying_report(found: Varying) -> Report:
     """Return the content of the report."""
     case, text, today = found.case, varying_sentences(found), datetime.date.today().isoformat()
-    said, forces = varying_limits(found), forces_of(found.case)
+    said, forces = varying_limits(), forces_of(found.case)
     rows = tuple((f"{mode.number}", forces.size(mode.load)) for mode in found.critical)
     facts = [(label, value, note) for label, value, note in conversions(case)]
     return Report(
