@@ -20,6 +20,7 @@ from rodwell.physics.on_wall.model import RodOfSections, RodOnCylinder
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
 from rodwell.physics.on_wall.ramps import RodOnRamps
 from rodwell.physics.on_wall.tapered import TERMS, RodOfTapers
+from rodwell.problem.clearances import check_lies, refuse_bridging
 from rodwell.problem.ends import OFF_WALL_ENDS, WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
@@ -85,6 +86,9 @@ def path(problem: Problem, parameter: Parameter, force: float = 0.0) -> FloatArr
             known = ", ".join(IN_CURVED_HOLE)
             reason = f"must be one of {known} along a branch in a curved hole, which changes with it; loads as "
             raise InputError("parameter", name, f"{reason}functions of it are curves: lift_off_curve, special_curve")
+        if problem.ramps and name not in WHERE_CLEARANCE_VARIES:
+            known = ", ".join(WHERE_CLEARANCE_VARIES)
+            raise InputError("parameter", name, f"must be one of {known} where the clearance varies along the rod")
     if isinstance(parameter, ParameterPath):
         return _own_path(problem, parameter, force)
     out = np.zeros((4, COUNT))
@@ -128,6 +132,9 @@ PATHS = ("force", "weight", "alpha", "clearance", "twist", *TORSIONAL)
 IN_CURVED_HOLE = ("force", "weight", "twist", *TORSIONAL)
 """Those of a curved hole, which stays as it is."""
 
+WHERE_CLEARANCE_VARIES = ("force", "weight", "alpha", *TORSIONAL)
+"""Those of a rod on a wall whose clearance varies, which stays as it is."""
+
 
 def family(
     problem: Problem,
@@ -150,7 +157,9 @@ def family(
         If the rod would leave the wall at its ends.
     """
     refuse_off_wall(problem.ends, "buckled states")
-    problem.refuse_bridges("buckled states")
+    refuse_bridging(problem, "buckled states")
+    if problem.ramps:
+        check_lies(problem)
     line = path(problem, parameter, force)
     along = throughout(problem, parameter)
     return Family(

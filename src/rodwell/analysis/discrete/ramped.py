@@ -7,42 +7,25 @@ from functools import partial
 import numpy as np
 
 from rodwell.numerics.equilibria.family import Given
-from rodwell.physics.on_wall.ramps import DRIVE_TERMS, TERMS, Wall, wall_at
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, SIDE
+from rodwell.physics.on_wall.ramps import DRIVE_TERMS, TERMS, Wall, strand, wall_at
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray, IntArray
-
-STEEP = 0.02
-"""A piece in which Δ′ varies by less has all digits of λ in its polynomials."""
-
-MOST_PIECES = 64
-"""Of a section."""
 
 
 def along_ramps(problem: Problem) -> Given:
     """What :mod:`rodwell.physics.on_wall.ramps` names at places (m,), (m, 66)."""
-    breaks, owner = _pieces(problem)
-    return partial(_rows_at, breaks[1:-1], _table(problem, breaks, owner))
+    return partial(_rows_at, problem.rod.breaks[1:-1], _table(problem))
 
 
 def _rows_at(inner: FloatArray, rows: FloatArray, places: FloatArray) -> FloatArray:
     return np.ascontiguousarray(rows[np.searchsorted(inner, places, side="right")])
 
 
-def _pieces(problem: Problem) -> tuple[FloatArray, IntArray]:
-    """Ends of the pieces (n + 1,), and the section (n,) of each: equal parts of it, more where the wall is steep."""
-    rod, ends, owner = problem.rod, [0.0], []
-    slope = rod.clearance.derivative
-    for number, (low, high) in enumerate(zip(rod.breaks[:-1], rod.breaks[1:], strict=True)):
-        steep = problem.clearance * slope.in_pieces(np.linspace(low, high, 33), np.full(33, number))
-        count = int(np.clip(np.ceil(np.ptp(steep) / STEEP), 1, MOST_PIECES))
-        ends += [float(s) for s in np.linspace(low, high, count + 1)[1:]]
-        owner += [number] * count
-    return np.array(ends), np.array(owner, dtype=np.int64)
-
-
-def _table(problem: Problem, breaks: FloatArray, owner: IntArray) -> FloatArray:
-    """Rows (n, 66) of what is given, one for each piece."""
-    rod, centre, half = problem.rod, 0.5 * (breaks[1:] + breaks[:-1]), 0.5 * np.diff(breaks)
+def _table(problem: Problem) -> FloatArray:
+    """Rows (n, 66) of what is given, one for each section."""
+    rod, breaks = problem.rod, problem.rod.breaks
+    centre, half, owner = 0.5 * (breaks[1:] + breaks[:-1]), 0.5 * np.diff(breaks), np.arange(breaks.size - 1)
     nodes, fit = _nodes(TERMS)
     places, piece = (centre[:, None] + half[:, None] * nodes).ravel(), np.repeat(owner, TERMS)
     columns = [centre[:, None], 1.0 / half[:, None], np.ones((owner.size, 1))]
@@ -83,9 +66,28 @@ def _drive(rows: FloatArray, centre: FloatArray, half: FloatArray, end: float) -
     for rate, last in ((-0.5 * wall.stiffness[1] * (bend / z1) ** 2, end), (-q * slope, 0.0), (q * z1, 0.0)):
         powers = rate.reshape(s.shape) @ fit.T * half[:, None]
         raised = np.concatenate([np.zeros((half.size, 1)), powers / np.arange(1.0, DRIVE_TERMS)], axis=1)
-        above = raised @ np.ones(DRIVE_TERMS)  # at the upper end of each piece
+        above = raised @ np.ones(DRIVE_TERMS)  # at the upper end of each section
         below = raised @ (-1.0) ** np.arange(DRIVE_TERMS)
         gained = np.cumsum((above - below)[::-1])[::-1]
         raised[:, 0] += last - gained - below
         out.append(raised)
     return np.concatenate(out, axis=1)
+
+
+def contact_on_ramps(problem: Problem, places: FloatArray, section: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Contact force per length in B/L³ of the rod that lies, towards the axis, at F = 0 and by F, at places (m,)."""
+    given, shape, own = _table(problem)[section].T, np.zeros((4, places.size)), _parameters(problem)
+    pressures = []
+    for force in (0.0, 1.0):
+        own[FORCE] = force
+        pressures.append(-strand(places, shape, given, own).pressure)
+    at_rest, pushed = pressures
+    return at_rest, pushed - at_rest
+
+
+def _parameters(problem: Problem) -> FloatArray:
+    """Parameters of a rod on such a wall without an end force, as kernels take them, (7,)."""
+    out = np.zeros(COUNT)
+    out[AXIAL_WEIGHT], out[LATERAL_WEIGHT] = problem.axial_weight, problem.foundation
+    out[CLEARANCE], out[SIDE] = problem.clearance, -1.0 if problem.outside else 1.0
+    return out

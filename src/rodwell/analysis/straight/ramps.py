@@ -6,19 +6,17 @@ import numpy as np
 
 from rodwell.analysis.discrete.family import parameters
 from rodwell.analysis.discrete.meshes import linear_space
-from rodwell.analysis.discrete.ramped import along_ramps
+from rodwell.analysis.discrete.ramped import along_ramps, contact_on_ramps
 from rodwell.analysis.straight.lying_loads import Found
 from rodwell.analysis.straight.lying_pencil import Pencil, below_all
 from rodwell.analysis.straight.refining import refined_loads
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria import eigen
 from rodwell.numerics.splines.spaces import SplineSpace
-from rodwell.physics.on_wall.ramps import axial_resultant, strand, wall_at
-from rodwell.problem.clearances import ALL_SMOOTH, LEAST, SMOOTH
+from rodwell.physics.on_wall.ramps import axial_resultant, wall_at
+from rodwell.problem.clearances import check_lies
 from rodwell.problem.problem import Problem
-from rodwell.problem.profile import Profile
-from rodwell.problem.rod import Rod
-from rodwell.quantities.arrays import FloatArray, IntArray
+from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Peak
 
 NODES, LAST = 28, 3
@@ -26,23 +24,6 @@ NODES, LAST = 28, 3
 
 ROUND_OFF = 1e4 * np.finfo(float).eps
 """Round-off in a fourth derivative, as a part of the clearance over the fourth power of the section's length."""
-
-
-def _derivatives(profile: Profile, orders: int, places: FloatArray, piece: IntArray) -> list[FloatArray]:
-    """A profile and its derivatives in pieces (m,), ``orders`` of them, (m,) each."""
-    out = []
-    for _ in range(orders):
-        out.append(profile.in_pieces(places, piece))
-        profile = profile.derivative
-    return out
-
-
-def contact_on_ramps(problem: Problem, places: FloatArray, rows: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Contact force per length in B/L³ of the rod that lies, towards the axis, at F = 0 and by F, at places (m,)."""
-    at_rest, pushed = (
-        -strand(places, np.zeros((4, places.size)), rows.T, parameters(problem, force)).pressure for force in (0.0, 1.0)
-    )
-    return at_rest, pushed - at_rest
 
 
 def axial_contact(problem: Problem, force: float) -> float:
@@ -65,7 +46,7 @@ def least_contact_on_ramps(problem: Problem, force: float) -> Peak:
     x = 0.5 - 0.5 * np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
     n, lengths = breaks.size - 1, np.diff(breaks)
     places = (breaks[:-1, None] + lengths[:, None] * x).ravel()
-    at_rest, by_force = contact_on_ramps(problem, places, along_ramps(problem)(places))
+    at_rest, by_force = contact_on_ramps(problem, places, np.repeat(np.arange(n), NODES))
     values = sign * (at_rest + force * by_force).reshape(n, NODES)
     rows = np.linalg.solve(np.polynomial.chebyshev.chebvander(2.0 * x - 1.0, NODES - 1), values.T).T
     found = [_least(np.polynomial.Chebyshev(row)) for row in rows]
@@ -97,66 +78,6 @@ def steepest(problem: Problem) -> float:
     n, places = breaks.size - 1, np.linspace(0.0, 1.0, 33)
     s = (breaks[:-1, None] + np.diff(breaks)[:, None] * places).ravel()
     return problem.clearance * float(np.max(np.abs(slope.in_pieces(s, np.repeat(np.arange(n), places.size)))))
-
-
-def check_lies(problem: Problem) -> None:
-    """Refuse what is not computed where the clearance varies, and a wall that would have to pull at a single place.
-
-    Raises
-    ------
-    InputError
-        Naming the place.
-    """
-    if problem.twist != 0.0:
-        what = "must be 0 where the clearance varies: a torque pushes a rod sideways that the wall bends, by T₁Δ‴ per "
-        raise InputError("twist", problem.twist, what + "length, so that it lies on no straight generator")
-    for order, (sides, what) in enumerate(
-        zip(_moments(problem.rod), ("a couple", "a force at one place"), strict=True)
-    ):
-        found = np.abs(sides[1] - sides[0]) > SMOOTH * _beside(problem.rod, 2 + order)
-        if np.any(found):
-            name, place = ("BΔ″", "(BΔ″)′")[order], float(problem.rod.breaks[1:-1][found][0])
-            raise InputError(
-                "sections, clearance", f"{name} jumps at s/L = {place:.6g}",
-                f"makes the wall exert {what} there, which is not computed: the wall would have to pull the rod there "
-                f"or beside it, and the string bridges it. Let {name} go on smoothly. {ALL_SMOOTH}, with a stiffness "
-                "that goes on smoothly too",
-            )  # fmt: skip
-    _check_ends(problem)
-
-
-def _moments(rod: Rod) -> tuple[FloatArray, FloatArray]:
-    """BΔ″ and its derivative on both sides of ends of sections, over the problem's B and Δ, (2, n − 1) each."""
-    steps, piece = rod.breaks[1:-1], np.arange(rod.breaks.size - 2)
-    out = []
-    for side in (piece, piece + 1):
-        b, b1 = _derivatives(rod.stiffness, 2, steps, side)
-        _, _, d2, d3 = _derivatives(rod.clearance, 4, steps, side)
-        out.append((b * d2, b1 * d2 + b * d3))
-    return np.array([one[0] for one in out]), np.array([one[1] for one in out])
-
-
-def _beside(rod: Rod, order: int) -> FloatArray:
-    """The size that BΔ and derivatives of this order have beside ends of sections, (n − 1,)."""
-    least, most = rod.ranges["clearance"]
-    size = rod.ranges["stiffness"][1] * (most - least + LEAST * most) / np.diff(rod.breaks) ** order
-    return np.asarray(np.maximum(size[:-1], size[1:]))
-
-
-def _check_ends(problem: Problem) -> None:
-    """Refuse ends that would have to hold more of the rod than they do where the wall is inclined or curved."""
-    rod, ends, pieces = problem.rod, np.array([0.0, 1.0]), np.array([0, problem.rod.breaks.size - 2])
-    derivatives = np.abs(_derivatives(rod.clearance, 4, ends, pieces)[1:])  # (3, 2)
-    least, most = rod.ranges["clearance"][:, pieces]
-    size = most - least + LEAST * most
-    lengths = np.diff(rod.breaks)[pieces]
-    vanish = derivatives <= SMOOTH * size / lengths ** np.array([1.0, 2.0, 3.0])[:, None]
-    for which, end in enumerate(problem.ends):
-        asked = {"free": vanish[:, which], "guided": vanish[:, which], "loose": vanish[:, which],
-                 "ball": vanish[1:2, which]}.get(end, np.array([True]))  # fmt: skip
-        if not np.all(asked):
-            what = f"{end} at s = {which} where the clearance varies is not computed: let it be constant there, or "
-            raise InputError("ends", "-".join(problem.ends), what + "hold the end (clamped, pinned)")
 
 
 def refuse_pull(problem: Problem, force: float) -> None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from rodwell.analysis.branch.solution import Solution
 from rodwell.answers.result.varying import Varying
 from rodwell.answers.words.advice import BAD, GOOD, OPEN, Status
 from rodwell.answers.words.wording import forces_of, place_text, size_text
+from rodwell.quantities.text import plain
 from rodwell.quantities.value import Value
 
 
@@ -25,6 +27,18 @@ def verdict(found: Varying) -> str:
         return f"The rod buckles under the load that acts: at {load}."
     stable = "is stable under the loads that act: it " if found.applied else ""
     return f"The rod lies on a wall whose clearance varies, and {stable}buckles at {load}."
+
+
+def push_note(solution: Solution) -> str:
+    """What a branch takes of the wall's push along the hole where the clearance varies; nothing elsewhere."""
+    if not solution.problem.ramps:
+        return ""
+    off = plain(solution.axial_contact_error, 2)
+    return (
+        "The clearance varies: what the wall pushes along the hole is taken as on the rod that lies straight. The "
+        f"contact of the buckled rod at {plain(solution.force, 6)} B/L² would change the axial force along it by "
+        f"{off} B/L² at most."
+    )
 
 
 def varying_limits() -> tuple[str, ...]:

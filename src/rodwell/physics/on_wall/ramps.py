@@ -40,7 +40,7 @@ GIVEN = (
     *(f"{name}_{j}" for name in ("stiffness", "weight", "clearance") for j in range(TERMS)),
     *(f"{name}_{j}" for name in PARTS for j in range(DRIVE_TERMS)),
 )  # fmt: skip
-"""Of a piece: where x = (s − centre)·scale is zero and its scale, 1/z₀′(1), coefficients of each function in xʲ."""
+"""Of a section: where x = (s − centre)·scale is zero and its scale, 1/z₀′(1), coefficients of each function in xʲ."""
 
 CENTRE, SCALE, BY_FORCE, STIFFNESS = range(4)
 WEIGHT, OWN_CLEARANCE, BENDING = (STIFFNESS + k * TERMS for k in (1, 2, 3))
@@ -115,6 +115,16 @@ def lying_push(s: Any, given: Any, wall: Wall, parameters: Any) -> Any:
     rate = -2.0 * b1 * bend * bend - 1.5 * b * square_rate - lateral * d1 + axial * z1  # λ′
     along = tangential(s, given, wall, parameters)
     return lateral + rate * d1 + along * d2 - (b * d4 + 2.0 * b1 * d3 + b2 * d2)
+
+
+def slack_of(s: Any, u: Any, given: Any, parameters: Any) -> Any:
+    """(z₀′ − z′) z₀′ at ``s``: how far a cross-section of the buckled rod comes along the wall, per length, and on k.
+
+    It is that by which the energy changes with N, and to the order of sin⁴η Δ′² the slack 1 − cos η along the wall.
+    """
+    wall = wall_at(s, given)
+    around, lying = wall.clearance[0] * u[1] / parameters[CLEARANCE], wall.lying[0]
+    return around * around / (1.0 + np.sqrt(1.0 - (around / lying) * (around / lying)))
 
 
 class Strand(NamedTuple):
@@ -193,7 +203,7 @@ class RodOnRamps(NamedTuple):
 
     @staticmethod
     def given() -> tuple[str, ...]:
-        """Names of the coefficients that vary along s, by pieces."""
+        """Names of the coefficients that vary along s, by steps: those of polynomials."""
         return GIVEN
 
     @staticmethod
