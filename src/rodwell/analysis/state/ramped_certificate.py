@@ -84,7 +84,10 @@ def _integrated(rod: OnRamps, s: FloatArray, half: FloatArray, force: FloatArray
 
 
 def _ends(problem: Problem, rod: OnRamps, largest: float, largest_moment: float) -> dict[str, float]:
-    """What ends hold, and the moment and the force around the hole that they leave free, relative to the largest."""
+    """What ends hold, and what they leave free, relative to the largest.
+
+    An end that slides around the hole, radially held, turns about its axis: the torque about that vanishes.
+    """
     places = np.concatenate([[0.0, 1.0], np.linspace(0.0, 1.0, 201)])
     y, y1 = rod.shape(places, 2)
     loads = rod.end_loads()
@@ -94,9 +97,9 @@ def _ends(problem: Problem, rod: OnRamps, largest: float, largest_moment: float)
         if end in HOLD_ANGLE:
             out[f"y({k})"] = abs(float(y[k])) / max(float(np.max(np.abs(y))), _TINY)
         else:
-            angle = float(rod.angle(y[k]))
-            around = float(force @ np.array([np.sin(angle), np.cos(angle), 0.0]))
-            out[f"force around ({k})"] = abs(around) / largest
+            centre = rod.frames(places[k : k + 1])[0][0]
+            torque = float(np.cross(centre, force)[2] + moment[2])
+            out[f"torque about the axis ({k})"] = abs(torque) / (largest * rod.clearance)
         if end in ("clamped", "guided"):
             out[f"y′({k})"] = abs(float(y1[k])) / max(float(np.max(np.abs(y1))), _TINY)
         else:  # the pin is radial
