@@ -17,7 +17,7 @@ from rodwell.physics.on_wall.ramps import axial_resultant, wall_at
 from rodwell.problem.clearances import check_lies
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
-from rodwell.quantities.value import Peak
+from rodwell.quantities.value import Peak, Value
 
 NODES, LAST = 28, 3
 """Places in a section through which the contact is known, and coefficients at the end that tell how well."""
@@ -34,6 +34,18 @@ def axial_contact(problem: Problem, force: float) -> float:
     given = along_ramps(problem)(np.zeros(1)).T
     start = axial_resultant(np.zeros(1), given, wall_at(np.zeros(1), given), parameters(problem, force))
     return float(start[0]) - force + problem.hung_weight
+
+
+def contact_in_all_on_ramps(problem: Problem, force: float) -> Value:
+    """∫|p| ds in B/L² of the rod that lies on the wall, pressed to it everywhere, at an end force."""
+    breaks, n, found = problem.rod.breaks, problem.rod.breaks.size - 1, []
+    half = 0.5 * np.diff(breaks)
+    for count in (NODES // 2, NODES):
+        nodes, weights = np.polynomial.legendre.leggauss(count)
+        places = (0.5 * (breaks[1:] + breaks[:-1])[:, None] + half[:, None] * nodes).ravel()
+        at_rest, by_force = contact_on_ramps(problem, places, np.repeat(np.arange(n), count))
+        found.append(float(np.abs(at_rest + force * by_force) @ (half[:, None] * weights).ravel()))
+    return Value(found[1], abs(found[1] - found[0]))
 
 
 def least_contact_on_ramps(problem: Problem, force: float) -> Peak:
