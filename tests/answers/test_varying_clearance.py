@@ -8,11 +8,16 @@ from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from rodwell import Case, InputError, Problem, critical_loads, ramp
+from rodwell import Case, InputError, NotConvergedError, Problem, answer, critical_loads, follow, ramp
+from rodwell.answers.data.varying import varying_dict
+from rodwell.answers.result.varying import varying_answer
+from rodwell.answers.words.varying import varying_sentences, varying_statuses
 from rodwell.cli.main import cli
+from rodwell.web.given import Given
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "tubing-two-casings.toml"
 DATA: dict[str, Any] = tomllib.loads(EXAMPLE.read_text(encoding="utf-8"))
@@ -45,7 +50,7 @@ def test_the_problem_is_that_of_a_ramp() -> None:
     assert not plain.ramps
 
 
-def test_run_tells_loads_contact_and_what_is_left_out(tmp_path: Path) -> None:
+def test_run_tells_loads_contact_and_what_is_not_computed(tmp_path: Path) -> None:
     file = tmp_path / "case.toml"
     text = EXAMPLE.read_text(encoding="utf-8")
     before = text[: text.index("# from the top")]
@@ -59,7 +64,7 @@ def test_run_tells_loads_contact_and_what_is_left_out(tmp_path: Path) -> None:
     assert shown.exit_code == 0, shown.output
     said = " ".join(shown.output.split())
     assert "lies on a wall whose clearance varies" in said
-    assert "Left out are terms of the order of the square of the wall's slope" in said
+    assert "and pushes it along the hole with 0.02708 lbf in all, towards the end s = 0." in said
     files = ["answer.json", "case.toml", "critical.csv", "critical.xlsx", "modes.png", "modes.svg", "report.html"]
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == files
     found = json.loads((tmp_path / "out" / "answer.json").read_text(encoding="utf-8"))
@@ -67,6 +72,62 @@ def test_run_tells_loads_contact_and_what_is_left_out(tmp_path: Path) -> None:
     assert found["critical_loads"][0]["value"] == pytest.approx(critical_loads(problem, 1)[0].force, rel=1e-9)
     assert found["least_contact"]["value"] > 0.0
     assert found["applied"][0]["buckled"] is False
+    assert found["applied"][0]["stress"]["value"] < found["stress"]["at buckling"]["value"]
+    assert found["lift_off"]["value"] == pytest.approx(follow(problem).lift_off.force, rel=1e-9)  # type: ignore[union-attr]
+    assert "The buckled rod lifts off the wall at 10 320 lbf of compression" in said
+    assert found["converged"] is True
+
+
+def test_stress_is_that_of_force_and_moment_on_the_wall() -> None:
+    """Without fluids: N/A ± M r/I, with the curvature that the wall gives the rod that lies."""
+    data = _data()
+    data["load"] = {"applied": "-8500 lbf"}
+    found = varying_answer(Case.from_dict(data))
+    outer, inner = 0.5 * 2.875 * INCH, 0.5 * 2.441 * INCH
+    area, inertia = np.pi * (outer**2 - inner**2), np.pi / 4.0 * (outer**4 - inner**4)
+    scales = found.case.scales
+    assert scales is not None
+    s = np.linspace(0.0, 1.0, 4001)
+    lying, lifted, applied = *found.states, found.under(0)
+    for state in (lying, lifted, applied):
+        assert state is not None
+        f = state.fields(s)
+        moment = scales.factor("moment") * np.hypot(f["rod_M2"], f["rod_M3"])
+        known = np.max(np.abs(f["rod_F1"]) * scales.factor("force") / area + moment * outer / inertia)
+        stress = found.stress(state)
+        assert stress is not None
+        assert stress.value == pytest.approx(known, rel=1e-4)
+    clearance = found.case.problem.rod.clearance.derivative.derivative
+    bend = found.case.problem.clearance * np.max(np.abs(clearance(s))) / scales.length
+    assert np.max(np.abs(lying.fields(s)["omega3"])) == pytest.approx(bend * scales.length, rel=1e-5)
+    assert found.lift_off is not None
+    assert lifted.solution is found.lift_off.solution
+    assert lying.total_contact.value == pytest.approx(found.case.problem.weight, rel=1e-6)
+    assert varying_statuses(found)[1].word == "bears it"
+    data["load"] = {"applied": "-20000 lbf"}
+    beyond = varying_answer(Case.from_dict(data))
+    assert beyond.under(0) is None
+    assert "has buckled and lifted off the wall: what it does then is not computed" in varying_sentences(beyond)[1]
+    assert varying_statuses(beyond)[1].word == "not judged"
+
+
+def test_what_needs_one_clearance_is_refused_at_once() -> None:
+    with pytest.raises(InputError, match="and studies, are computed in holes of one"):
+        answer(Case.from_dict(_data()))
+    with pytest.raises(InputError, match="pictures in space, which `rodwell explore` shows, are computed"):
+        Given(_data())
+
+
+def test_an_answer_is_told_where_the_branch_could_not_be_followed(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*_: Any, **__: Any) -> None:
+        raise NotConvergedError("as if")
+
+    monkeypatch.setattr("rodwell.answers.result.varying.follow", fails)
+    found = varying_answer(Case.from_dict(_data()))
+    assert "Where the buckled rod lifts off the wall was not found: as if." in varying_sentences(found)
+    told = varying_dict(found)
+    assert told["lift_off"] is None
+    assert told["not_followed"] == "as if"
 
 
 @pytest.mark.parametrize(

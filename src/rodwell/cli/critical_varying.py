@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def show_varying(loads: CriticalLoads, asked: int, as_json: bool) -> None:
-    """Print the loads, what is left out of them and where the wall presses least; or all of it as JSON."""
+    """Print the loads, how the wall pushes along the hole and where it presses least; or all of it as JSON."""
     if as_json:
         print_json(_data(loads))
     else:
@@ -51,7 +51,7 @@ def _data(loads: CriticalLoads) -> dict[str, Any]:
         "tensile_loads": [],
         "without_wall": None,
         "varying_clearance": {
-            "slope_squared": loads.slope_squared,
+            "axial_contact": loads.axial_contact,
             "least_contact": {**least.as_dict(), "s": least.s},
         },
         "unit": "B/L^2",
@@ -69,9 +69,9 @@ def _print(loads: CriticalLoads, asked: int) -> None:
         symmetry = {1: "even", -1: "odd", 0: "no symmetry"}[mode.parity]
         click.echo(f"  mode {mode.number:>2}  {with_error(mode.load)}   {symmetry}")
     wrapped(
-        "The clearance varies along the rod. Left out are terms of the order of its slope's square, "
-        f"{plain(loads.slope_squared, 2)} of a load. At the first load the wall presses the rod least at "
-        f"s/L = {plain(least.s, 4)}, by {plain(least.value, 4)} B/L³."
+        "The clearance varies along the rod. At the first load the wall presses the rod least at "
+        f"s/L = {plain(least.s, 4)}, by {plain(least.value, 4)} B/L³, and pushes it along the hole with "
+        f"{plain(abs(loads.axial_contact), 3)} {UNIT} in all, towards s = {1 if loads.axial_contact < 0.0 else 0}."
     )
     if len(loads) < asked:
         wrapped("At higher loads the wall would have to pull: the rod has left it before.")

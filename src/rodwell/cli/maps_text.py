@@ -24,8 +24,10 @@ def tell_diagram(result: Diagram, out: Path | None, *, as_json: bool) -> None:
     """Print branches and their special points, or JSON; and that files of them are in ``out``, if they are."""
     bent = result.problem.hole is not None
     places = {branch.name: branch[-1].place_errors for branch in result} if bent else {}
+    pushes = {branch.name: branch[-1].axial_contact_error for branch in result} if result.problem.ramps else {}
     if as_json:
-        print_json({**result.as_dict(), **({"place_errors_at_the_ends": places} if places else {})})
+        more = {"place_errors_at_the_ends": places, "axial_contact_errors_at_the_ends": pushes}
+        print_json({**result.as_dict(), **{name: errors for name, errors in more.items() if errors}})
         return
     _print_diagram(result)
     for name, errors in places.items():
@@ -52,6 +54,7 @@ def tell_curves(curves: Sequence[Curve], out: Path | None, *, as_json: bool) -> 
 def _print_diagram(result: Diagram) -> None:
     from rodwell.answers.words.first_met import KEPT  # noqa: PLC0415
     from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
+    from rodwell.answers.words.varying import push_note  # noqa: PLC0415
     from rodwell.problem.words import ends_text  # noqa: PLC0415
     from rodwell.quantities.value import Value  # noqa: PLC0415
     from rodwell.report.reports.texts import KINDS  # noqa: PLC0415
@@ -64,6 +67,8 @@ def _print_diagram(result: Diagram) -> None:
     note = "" if first is None else steps_note(first.solution.step_loads, bent=result.problem.hole is not None)
     if note:
         wrapped(note)
+    if first is not None and result.problem.ramps:
+        wrapped(push_note(first.solution))
     for branch in result:
         verb = "leaves" if branch.parameter == "force" else "continues"
         parent = f", {verb} {branch.origin.parent}" if branch.origin.parent else ""

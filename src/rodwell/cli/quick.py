@@ -81,6 +81,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
         "coincides_with_buckling": branch.lift_off_at_buckling,
         **({"steps": steps_data(lift.solution.step_loads)} if problem.sections else {}),
         **({} if own is None else {"lift_off_own_places": own.as_dict()}),
+        **({"axial_contact_error": lift.solution.axial_contact_error} if problem.ramps else {}),
         "converged": not what,
         "unit": "B/L^2",
         "convention": "end force at s = 1, tension positive; " + ends_text(problem),
@@ -104,6 +105,7 @@ def _print_liftoff(
 ) -> None:
     """The load with the wall's help, and of a curved hole that with every cross-section at its own place."""
     from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
+    from rodwell.answers.words.varying import push_note  # noqa: PLC0415
     from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     problem, buckling, (load, own) = branch.problem, branch.mode, loads
@@ -119,9 +121,9 @@ def _print_liftoff(
     _print_arms(lift.load, other)
     if branch.lift_off_at_buckling:
         wrapped("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
-    note = steps_note(lift.solution.step_loads, bent=problem.hole is not None)
-    if note:
-        wrapped(note)
+    for note in (steps_note(lift.solution.step_loads, bent=problem.hole is not None), push_note(lift.solution)):
+        if note:
+            wrapped(note)
     if load != lift.load:
         wrapped("Twist makes the rod leave the wall inwards before it buckles like a rod that is kept on it.")
 

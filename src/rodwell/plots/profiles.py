@@ -154,13 +154,14 @@ def plot_around(states: Sequence[Solution], scales: Scales | None = None, ax: An
 def plot_wall_loads(branch: Branch, scales: Scales | None = None, states: Sequence[Solution] | None = None) -> Any:
     """Draw contact pressure above twisting moment in the cylinder, at the same loads; return the upper axes.
 
-    In a curved hole above the angle around the hole, which says which part of the wall bears it.
+    In a curved hole, or where the clearance varies, above the angle around the hole: which part of the wall bears it.
     """
     states = states_to_lift_off(branch) if states is None else states
     upper = new_axes(size=(SIZE[0], 6.2), nrows=2, index=1)
     lower = upper.figure.add_subplot(2, 1, 2, sharex=upper)
     plot_contact_pressure(branch, scales, ax=upper, states=states)
-    below = plot_torque if branch.problem.hole is None else plot_around
+    in_cylinder = branch.problem.hole is None and not branch.problem.ramps
+    below = plot_torque if in_cylinder else plot_around
     below(states, scales, ax=lower, legend=False)
     upper.set_xlabel("")
     upper.set_title(in_lines(parameters(branch.problem, scales), 100), loc="left", fontsize=8.5)

@@ -5,7 +5,7 @@ it. The group ``restart`` holds what the branch is made of, bit by bit:
 
 ==================  ======================================================================================
 ``breaks``          mesh points of the coarse meshes, one mesh after the other; ``mesh_elements`` (mesh): how many each
-``kinked``          1 at those that are kinks, elsewhere 0; in files without it kinks are at steps of a string
+``kinked``          derivatives continuous at kinks, 0 elsewhere; in files without it kinks are at steps of a string
 ``mesh_parity``     parity that states on it keep; ``mesh_floor``: excess of errors below which refining does not help
 ``coefficients``    of all states in turn: spline coefficients, tangent and its covector, each of the size of the space
 ``state``           (state, 5): λ, its parts of tangent and covector, stability index, energy; coarse and fine in turn
@@ -49,6 +49,7 @@ from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.problem.varying import ParameterPath, words_for
+from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.table import Variable
 from rodwell.store.dataset import branch_attributes, branch_variables
 from rodwell.store.folder import whole_folder
@@ -123,6 +124,13 @@ def load_branch(path: str | Path) -> Branch:
         raise InputError("path", str(path), reason) from None
 
 
+def _kinked(space: SplineSpace) -> FloatArray:
+    """Of each mesh point how many derivatives are continuous, if it is a kink; else 0."""
+    out = np.zeros(space.breaks.size)
+    out[space.kink_elements] = space.smooth
+    return out
+
+
 def _write(branch: Branch, group: Any) -> None:
     trace = branch.trace
     pairs = [*zip(trace.points, trace.meshes, strict=True), *((event.point, event.meshes) for event in trace.found)]
@@ -132,7 +140,7 @@ def _write(branch: Branch, group: Any) -> None:
     events = [(e.lam_error, e.index_before, e.index_after, e.rising, e.fold, e.certain, e.after) for e in trace.found]
     arrays = {
         "breaks": np.concatenate([space.breaks for space in spaces]),
-        "kinked": np.concatenate([np.isin(space.breaks, space.kinks).astype(float) for space in spaces]),
+        "kinked": np.concatenate([_kinked(space) for space in spaces]),
         "mesh_elements": np.array([mesh.coarse.space.elements for mesh in meshes]),
         "mesh_parity": np.array([mesh.coarse.parity for mesh in meshes]),
         "mesh_floor": np.array([mesh.floor for mesh in meshes]),
@@ -215,7 +223,8 @@ class _Reading:
         for i, elements in enumerate(self.arrays["mesh_elements"]):
             breaks, kinked = (one[start : start + int(elements) + 1] for one in (every, marks))
             start += int(elements) + 1
-            space = SplineSpace(breaks, int(about["degree"]), int(about["per_element"]), breaks[kinked > 0.0])
+            kinks, smooth = breaks[kinked > 0.0], kinked[kinked > 0.0].astype(np.int64)
+            space = SplineSpace(breaks, int(about["degree"]), int(about["per_element"]), kinks, smooth)
             equilibria = family(
                 self.problem, space, parity=int(self.arrays["mesh_parity"][i]), wavenumber=1.0,
                 scale=float(about["lam_scale"]), parameter=str(about["parameter"]), force=float(about["force"]),

@@ -13,6 +13,7 @@ from rodwell.analysis.state.compared import compared, compared_peaks
 from rodwell.analysis.state.fields import ZOOMS, fields_at, largest_of
 from rodwell.analysis.straight.fields import straight_fields
 from rodwell.analysis.straight.lying import lying_contact_in_all
+from rodwell.analysis.straight.ramps import axial_contact, contact_in_all_on_ramps
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -76,8 +77,12 @@ class LoadedRod:
 
     @property
     def at_bottom(self) -> float:
-        """Effective axial force at the lower end s = 0 in B/L², N(0) = F − γ cos α, or less γ times the rod's rise."""
-        return self.force - self.problem.hung_weight
+        """Effective axial force at the lower end s = 0 in B/L², N(0) = F − γ cos α, or less γ times the rod's rise.
+
+        Where the clearance varies, with what the wall pushes along the hole.
+        """
+        pushed = axial_contact(self.problem, self.force) if self.problem.ramps else 0.0
+        return self.force - self.problem.hung_weight + pushed
 
     @property
     def along(self) -> tuple[OnMesh, ...]:
@@ -109,6 +114,8 @@ class LoadedRod:
             return self.solution.total_wall_force
         if self.problem.hole is not None:
             return lying_contact_in_all(self.problem, self.force)
+        if self.problem.ramps:
+            return contact_in_all_on_ramps(self.problem, self.force)
         whole = self.problem.lateral_weight * self.problem.rod.whole_weight
         return compared(whole, whole)
 

@@ -84,7 +84,8 @@ class RodSection:
             above = top - height_of_rod(p, start + f["z"], f["xi2"])
             return self.scales.length * (-above if p.floats else above)  # of a rod that floats upside down
         alpha = math.radians(p.alpha)
-        up = (-1.0 if p.floats else 1.0) * p.clearance * math.sin(alpha) * (1.0 - np.cos(f["xi2"]))
+        own, last = (p.rod.clearance(f["s"]), p.rod.clearance(np.ones(1))) if p.ramps else (1.0, 1.0)
+        up = (-1.0 if p.floats else 1.0) * p.clearance * math.sin(alpha) * (last - own * np.cos(f["xi2"]))
         axial = 0.0 if p.alpha == 90.0 else math.cos(alpha)
         return self.scales.length * ((1.0 - f["z"]) * axial - up)
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from rodwell._version import __version__
 from rodwell.case.case import Case
+from rodwell.problem.clearances import refuse_ramps
 from rodwell.web.inputs import DEFAULT, ENDS, MOST_MODES, controls, moved
 
 
@@ -41,6 +42,7 @@ class Given:
     def case_of(self, data: Mapping[str, Any]) -> Case:
         """Return the case of other content, with as many modes as a page shows."""
         case = Case.from_dict(data, source=self._source, folder=self._folder)
+        refuse_ramps(case.problem, "pictures in space, which `rodwell explore` shows,")
         if case.modes > MOST_MODES:
             data = {**data, "analysis": {**data.get("analysis", {}), "modes": MOST_MODES}}
             case = Case.from_dict(data, source=self._source, folder=self._folder)

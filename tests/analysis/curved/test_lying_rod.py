@@ -15,7 +15,7 @@ from rodwell.analysis.discrete.curved import along_rod
 from rodwell.analysis.discrete.curved_meshes import linear_space
 from rodwell.analysis.straight.critical import tensile_loads
 from rodwell.analysis.straight.lying import least_contact, lies_between, lying_contact, lying_fields
-from rodwell.analysis.straight.lying_loads import _Pencil
+from rodwell.analysis.straight.lying_pencil import Pencil
 
 D = 0.01
 
@@ -138,7 +138,7 @@ def test_a_load_in_tension_behind_many_others_or_far_from_the_first_is_found(
     on other meshes confirm both."""
     found = tensile_loads(problem, 3)
     assert len(found) == 2
-    pencil = _Pencil(problem, linear_space(problem, (-mesh, mesh)).refined())
+    pencil = Pencil(problem, linear_space(problem, (-mesh, mesh)).refined())
     for number, mode in enumerate(found):
         counts = [pencil.unstable(mode.force * factor) for factor in (1.0 - within, 1.0 + within)]
         assert counts == [number, number + 1]

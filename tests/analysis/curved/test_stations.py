@@ -19,7 +19,7 @@ from rodwell import Problem, Survey, critical_loads, equilibrium
 from rodwell.analysis.discrete import curved
 from rodwell.analysis.state.in_hole import InHole
 from rodwell.analysis.straight.lying import lying_contact
-from rodwell.analysis.straight.lying_loads import _Pencil
+from rodwell.analysis.straight.lying_pencil import Pencil
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
 from rodwell.survey.path import path_of_survey
@@ -113,7 +113,7 @@ def test_contact_of_the_lying_rod_jumps_at_a_station_as_its_balance_says() -> No
     assert abs(above - below) > 1.0
 
 
-def softest(force: float, pencil: _Pencil) -> float:
+def softest(force: float, pencil: Pencil) -> float:
     """Lowest eigenvalue of the second variation on a mesh: zero at its first critical load."""
     return float(pencil.softest(force)[0][0])
 
@@ -123,7 +123,7 @@ def errors_on_meshes(problem: Problem, load: float, kinks: FloatArray) -> FloatA
     space = SplineSpace(np.union1d(np.linspace(0.0, 1.0, 9), kinks), 5, kinks=kinks)
     return np.array(
         [
-            abs(brentq(softest, load - 2.0, load + 2.0, args=(_Pencil(problem, mesh),), xtol=1e-11) - load)
+            abs(brentq(softest, load - 2.0, load + 2.0, args=(Pencil(problem, mesh),), xtol=1e-11) - load)
             for mesh in (space, space.refined())
         ]
     )

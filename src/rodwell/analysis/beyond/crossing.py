@@ -66,7 +66,7 @@ def check_crosses(problem: Problem) -> None:
     if problem.untouched:
         raise InputError(field, True, "nothing presses the rod to the wall, which it leaves as it buckles: "
                          "rodwell.load_path (`rodwell path`) follows it")  # fmt: skip
-    problem.refuse_bridges("branches")
+    problem.refuse_bridges("branches that go on off the wall")
     if problem.rod.stiffness_steps.size:
         raise InputError(field, True, "a string leaves the wall at a step of its stiffness as it buckles: "
                          "rodwell.load_path (`rodwell path`) follows it")  # fmt: skip

@@ -10,6 +10,7 @@ from rodwell.analysis.state.balance import Reaction, end_rotation, energies, rea
 from rodwell.analysis.state.certificate import Certificate, certificate_of
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import GRID
+from rodwell.analysis.state.on_ramps import OnRamps
 from rodwell.analysis.state.own_places import with_own_places
 from rodwell.analysis.state.wall import StepLoad, WallLoads, step_loads, wall_loads
 from rodwell.faces import Shown, drawn, drawn_in_space, face
@@ -66,6 +67,15 @@ class Solution(Equilibrium, Shown):
             return {}
         own = self.own_places
         return {name: abs(own.number(which).value - self.number(which).value) for which, name in MEASURES.items()}
+
+    @property
+    def axial_contact_error(self) -> float:
+        """By how much the axial force is off at most, in B/L², where the clearance varies along the rod; 0 elsewhere.
+
+        Branches take what the wall pushes along the hole as on the rod that lies straight, so that they leave it at its
+        own critical load. This is how much more or less the contact of the buckled rod pushes above any place.
+        """
+        return OnRamps(self.problem, *self.levels[1]).axial_contact_error() if self.problem.ramps else 0.0
 
     @cached_property
     def energies(self) -> dict[str, Value]:

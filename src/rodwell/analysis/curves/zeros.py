@@ -13,12 +13,13 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.symmetry import kept_parity
 from rodwell.analysis.curves.points import CurveStart, CurveTangent, NearbyStates, PlanePoint, Zero
 from rodwell.analysis.curves.secant import CurveLostError, zero_from
-from rodwell.analysis.discrete.family import IN_CURVED_HOLE, in_other_hole, path, spline_ends
+from rodwell.analysis.discrete.family import IN_CURVED_HOLE, WHERE_CLEARANCE_VARIES, in_other_hole, path, spline_ends
+from rodwell.errors import InputError
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
-from rodwell.problem.varying import Parameter, varied
+from rodwell.problem.varying import Parameter, ParameterPath, varied
 from rodwell.quantities.arrays import FloatArray
 
 
@@ -29,6 +30,8 @@ class AlongForce(Zero):
 
     def __init__(self, problem: Problem, over: Parameter, load: str = "force") -> None:
         super().__init__(over, load)
+        if problem.ramps and "twist" in (over.names if isinstance(over, ParameterPath) else (over,)):
+            raise InputError("over", over, "must leave the twist at 0 where the clearance varies along the rod")
         self.problem = problem
         self.kept = {parity: kept_parity(problem, parity, over, load) for parity in (-1, 0, 1)}
 
@@ -39,7 +42,7 @@ class AlongForce(Zero):
     def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
         """The same meshes with the equilibria along the end force at ``spot``."""
         problem, parity = self.at(spot.x), self.kept[meshes.coarse.parity]
-        if self.problem.hole is None and problem.hole is None:
+        if self.problem.hole is None and problem.hole is None and not problem.ramps:
             return meshes.on_path(path(problem, "force", spot.value), spline_ends(problem), parity)
         return meshes.changed(lambda family: replace(in_other_hole(family, problem, spot.value), parity=parity))
 
@@ -129,6 +132,8 @@ class Folding(AlongForce):
         self, meshes: TwoMeshes, c: FloatArray, spot: PlanePoint, travel: CurveTangent, mesh: int
     ) -> tuple[float, State]:
         """The fold of the equilibria along the parameter, at the end force of ``spot``, on one of both meshes."""
+        if self.at(spot.x).ramps and self.over not in WHERE_CLEARANCE_VARIES:
+            raise CurveLostError(f"it turns back in {self.over}, in which no state is followed where Δ varies")
         if self.at(spot.x).hole is not None and self.over not in IN_CURVED_HOLE:
             raise CurveLostError(f"it turns back in {self.over}, along which states in a curved hole are not followed")
         line = self.meshes(meshes, spot)

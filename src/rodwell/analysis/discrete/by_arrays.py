@@ -1,4 +1,4 @@
-"""The measured numbers of a rod in a curved hole, or with sections that taper, by arrays.
+"""The measured numbers of a rod in a curved hole, with sections that taper, or of varying clearance, by arrays.
 
 They are those of :mod:`rodwell.analysis.discrete.measures`. The contact pressure is the field's own, from the third
 derivative of the spline. In a curved hole ω₂ at the ends is the curvature −K_g about d₁, that of the hole included, and
@@ -14,6 +14,8 @@ from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.curved import RodInCurvedHole, bends_at, strand
 from rodwell.physics.on_wall.parameters import CLEARANCE, COUNT, RAMP
+from rodwell.physics.on_wall.ramps import BY_FORCE, RodOnRamps, slack_of, wall_at
+from rodwell.physics.on_wall.ramps import strand as along_wall
 from rodwell.quantities.arrays import FloatArray
 
 CHANGE = 1e-5
@@ -26,6 +28,10 @@ STEEP_ORDER = 4
 def end_shortening(family: Family, state: State) -> tuple[float, FloatArray]:
     """How far the loaded end moves along its own tangent, in L, and the density of that at the quadrature points."""
     u = state.space.at_points(state.c)
+    if isinstance(family.model, RodOnRamps):
+        given = family.mesh.given.T
+        slack = given[BY_FORCE] * slack_of(state.space.points, u, given, family.parameters(state.lam))
+        return float(state.space.weights @ slack), slack
     if not isinstance(family.model, RodInCurvedHole):
         slope = u[1] + family.parameters(state.lam)[RAMP]
         slack = slope**2 / (1.0 + np.sqrt(1.0 - slope**2))
@@ -64,6 +70,9 @@ def end_curvatures(family: Family, state: State) -> FloatArray:
     """ω₂ at s = 0 and s = 1, (2,)."""
     p, ends = family.parameters(state.lam), np.array([0.0, 1.0])
     u = state.space.evaluate(state.c, ends, STEEP_ORDER)
+    if isinstance(family.model, RodOnRamps):
+        assert family.given is not None
+        return np.asarray(along_wall(ends, u, family.given(ends).T, p).omega[1])
     if not isinstance(family.model, RodInCurvedHole):
         return np.asarray(-u[2] / np.sqrt(1.0 - (u[1] + p[RAMP]) ** 2))
     assert family.given is not None
@@ -79,6 +88,9 @@ def totals(family: Family, state: State) -> dict[str, float]:
     gradient = family.model.density(space.points, u, given, p, np.zeros(COUNT))[2]
     lateral = clearance * gradient[0]
     u[0], u[1] = u[0] + p[RAMP] * space.points, u[1] + p[RAMP]
+    if isinstance(family.model, RodOnRamps):  # y is Δ₀θ
+        own = wall_at(space.points, given).clearance[0] / clearance
+        u[1:] = own * u[1:]
     bend = u[2] / np.sqrt(1.0 - u[1] ** 2)
     shortening, density = end_shortening(family, state)
     return {

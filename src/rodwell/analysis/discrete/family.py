@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from rodwell.analysis.discrete.curved import along_rod
+from rodwell.analysis.discrete.ramped import along_ramps
 from rodwell.errors import InputError
 from rodwell.numerics.equilibria.family import MIRROR, Family, Given
 from rodwell.numerics.equilibria.series import series_path
@@ -17,7 +18,9 @@ from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.curved import RodInCurvedHole, TaperedRodInCurvedHole
 from rodwell.physics.on_wall.model import RodOfSections, RodOnCylinder
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
+from rodwell.physics.on_wall.ramps import RodOnRamps
 from rodwell.physics.on_wall.tapered import TERMS, RodOfTapers
+from rodwell.problem.clearances import check_lies, refuse_bridging
 from rodwell.problem.ends import OFF_WALL_ENDS, WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
@@ -83,6 +86,9 @@ def path(problem: Problem, parameter: Parameter, force: float = 0.0) -> FloatArr
             known = ", ".join(IN_CURVED_HOLE)
             reason = f"must be one of {known} along a branch in a curved hole, which changes with it; loads as "
             raise InputError("parameter", name, f"{reason}functions of it are curves: lift_off_curve, special_curve")
+        if problem.ramps and name not in WHERE_CLEARANCE_VARIES:
+            known = ", ".join(WHERE_CLEARANCE_VARIES)
+            raise InputError("parameter", name, f"must be one of {known} where the clearance varies along the rod")
     if isinstance(parameter, ParameterPath):
         return _own_path(problem, parameter, force)
     out = np.zeros((4, COUNT))
@@ -126,6 +132,9 @@ PATHS = ("force", "weight", "alpha", "clearance", "twist", *TORSIONAL)
 IN_CURVED_HOLE = ("force", "weight", "twist", *TORSIONAL)
 """Those of a curved hole, which stays as it is."""
 
+WHERE_CLEARANCE_VARIES = ("force", "weight", "alpha", *TORSIONAL)
+"""Those of a rod on a wall whose clearance varies, which stays as it is."""
+
 
 def family(
     problem: Problem,
@@ -148,11 +157,13 @@ def family(
         If the rod would leave the wall at its ends.
     """
     refuse_off_wall(problem.ends, "buckled states")
-    problem.refuse_bridges("buckled states")
+    refuse_bridging(problem, "buckled states")
+    if problem.ramps:
+        check_lies(problem)
     line = path(problem, parameter, force)
     along = throughout(problem, parameter)
     return Family(
-        model=_model(problem),
+        model=rod_model(problem),
         path=line,
         space=space,
         ends=spline_ends(problem),
@@ -172,7 +183,7 @@ def in_other_hole(equilibria: Family, problem: Problem, force: float) -> Family:
     """The same equilibria along the end force, from ``force``, of a problem in another hole, curved or straight."""
     return replace(
         equilibria,
-        model=_model(problem),
+        model=rod_model(problem),
         path=path(problem, END_FORCE, force),
         ends=spline_ends(problem),
         given=given_along(problem),
@@ -186,7 +197,10 @@ def _autonomous(problem: Problem) -> bool:
     return problem.axial_weight == 0.0 and not problem.sections and problem.hole is None
 
 
-def _model(problem: Problem) -> RodOnCylinder | RodOfSections | RodOfTapers | RodInCurvedHole:
+def rod_model(problem: Problem) -> RodOnCylinder | RodOfSections | RodOfTapers | RodInCurvedHole | RodOnRamps:
+    """The model of a problem's rod on its wall."""
+    if problem.ramps:
+        return RodOnRamps()
     if problem.hole is not None:
         return TaperedRodInCurvedHole() if problem.tapered else RodInCurvedHole()
     if problem.tapered:
@@ -210,8 +224,11 @@ def given_along(problem: Problem) -> Given | None:
     """What kernels are given along s: of sections, b, q and d of :mod:`rodwell.physics.on_wall.sections`, (m, 3).
 
     Of sections that taper, what :mod:`rodwell.physics.on_wall.tapered` names, (m, 17); of a curved hole, what
-    :mod:`rodwell.physics.on_wall.curved` does, (m, 45), or (m, 52) where sections taper.
+    :mod:`rodwell.physics.on_wall.curved` does, (m, 45), or (m, 52) where sections taper; where the clearance varies,
+    what :mod:`rodwell.physics.on_wall.ramps` does, (m, 66).
     """
+    if problem.ramps:
+        return along_ramps(problem)
     if problem.hole is not None:
         return along_rod(problem)
     return given_in_kernels(problem.rod) if problem.sections else None

@@ -7,7 +7,8 @@ import numpy as np
 from rodwell.analysis.discrete.pressures import COEFFICIENT_NOISE, STIFFNESS
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
-from rodwell.physics.on_wall.parameters import RAMP
+from rodwell.physics.on_wall.parameters import CLEARANCE, RAMP
+from rodwell.physics.on_wall.ramps import RodOnRamps, wall_at
 from rodwell.physics.on_wall.tapered import RodOfTapers, here
 
 SIDE = 1e-4
@@ -27,7 +28,10 @@ def load_noise(family: Family, fold: State) -> float:
     functions = np.repeat(space.starts, space.per_element)[:, None] + np.arange(space.degree + 1)
     terms = np.abs(space.table[:, 2] * c[functions]).sum(axis=1)
     stiffness = 1.0 / (1.0 - (slope + family.parameters(fold.lam)[RAMP]) ** 2)
-    if isinstance(family.model, RodOfTapers):
+    if isinstance(family.model, RodOnRamps):  # y is Δ₀θ
+        wall = wall_at(space.points, family.mesh.given.T)
+        stiffness = stiffness * wall.stiffness[0] * (wall.clearance[0] / family.parameters(fold.lam)[CLEARANCE]) ** 2
+    elif isinstance(family.model, RodOfTapers):
         stiffness = stiffness * here(space.points, family.mesh.given.T)[0]
     elif family.mesh.given.shape[1]:
         stiffness = stiffness * family.mesh.given[:, STIFFNESS]

@@ -30,6 +30,7 @@ from rodwell.numerics.splines.basis import combine
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.curved import RodInCurvedHole
 from rodwell.physics.on_wall.parameters import CLEARANCE, RAMP, SIDE
+from rodwell.physics.on_wall.ramps import RodOnRamps
 from rodwell.physics.on_wall.tapered import RodOfTapers
 from rodwell.quantities.arrays import FloatArray
 
@@ -51,7 +52,7 @@ OTHER_END = 4.0
 curvature at the other end may be."""
 
 
-BY_ARRAYS = RodInCurvedHole, RodOfTapers
+BY_ARRAYS = RodInCurvedHole, RodOfTapers, RodOnRamps
 """Models that are measured by arrays: kernels know coefficients that are constant in each section."""
 
 

@@ -17,8 +17,10 @@ from rodwell.analysis.discrete.choices import (
     LINEAR_ELEMENTS_PER_RADIAN,
     POINTS_OF_BRANCH,
 )
+from rodwell.analysis.discrete.ramped import contact_on_ramps
 from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import Rod
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 PLACES = 9
@@ -118,18 +120,41 @@ def _space(problem: Problem, loads: tuple[float, float], least: float, per_radia
     """Space that resolves √(|P|/b) + (a/b)^¼ and ``least`` at compressions −F from one load to the other."""
     places, section = places_along(problem)
     stiffness, axial, foundation = _local(problem, places, section)
+    if problem.ramps:
+        foundation = _pushed(problem, places, section, loads) / (
+            problem.clearance * problem.rod.clearance.in_pieces(places, section)
+        )
     most = np.maximum(np.abs(loads[0] - axial), np.abs(loads[1] - axial))
     wavenumber = np.sqrt(most / stiffness) + (np.abs(foundation) / stiffness) ** 0.25 + least
     breaks = problem.rod.breaks
     mesh = graded_mesh(wavenumber, places, per_radian, LEAST_ELEMENTS, breaks[1:-1])
-    return kinked_space(mesh, breaks[1:-1], float(np.trapezoid(wavenumber, places)), branch)
+    smooth = _smooth(problem.rod) if problem.ramps else None
+    return kinked_space(mesh, breaks[1:-1], float(np.trapezoid(wavenumber, places)), branch, smooth)
 
 
-def kinked_space(mesh: FloatArray, kinks: FloatArray, radians: float, branch: bool) -> SplineSpace:
+def _pushed(problem: Problem, places: FloatArray, section: IntArray, loads: tuple[float, float]) -> FloatArray:
+    """The larger contact force per length (m,) at two compressions −F where the clearance varies."""
+    at_rest, by_force = contact_on_ramps(problem, places, section)
+    return np.maximum(np.abs(at_rest - loads[0] * by_force), np.abs(at_rest - loads[1] * by_force))
+
+
+def _smooth(rod: Rod) -> IntArray:
+    """Derivatives of θ that are continuous at ends of sections where the clearance varies, (n − 1,).
+
+    Where it does, it is smooth up to the third: θ″ jumps with the stiffness, θ‴ with its derivative, θ⁗ with the fourth
+    derivative of the clearance. Knots that ask for less leave more to round-off.
+    """
+    below, above = rod.stiffness_sides
+    return np.where(below != above, 1, np.where(rod.stiffness_kink_sizes != 0.0, 2, 3))
+
+
+def kinked_space(
+    mesh: FloatArray, kinks: FloatArray, radians: float, branch: bool, smooth: IntArray | None = None
+) -> SplineSpace:
     """Spline space on a mesh with kinks (k,), of so many radians of the local wavenumber in all."""
     ends = np.concatenate([[0.0], kinks, [1.0]])
     shortest = float(np.min(np.diff(ends))) * radians
     degree = min([DEGREE, *(lower for most, lower in LOWER_DEGREES[branch] if shortest < most)])
     inside = np.diff(np.searchsorted(mesh, ends))  # elements between kinks
     few = branch and degree == DEGREE and int(np.min(inside)) >= SMOOTH
-    return SplineSpace(mesh, degree, POINTS_OF_BRANCH if few else None, kinks)
+    return SplineSpace(mesh, degree, POINTS_OF_BRANCH if few else None, kinks, smooth)

@@ -36,6 +36,7 @@ from rodwell.numerics.equilibria.error import NUMBER_NOISE
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines import banded
+from rodwell.problem.clearances import refuse_ramps
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Peak, Value
@@ -64,6 +65,7 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
     if lift.kind != LIFT_OFF:
         raise InputError("point", lift.kind, "must be a lift-off")
     solution = lift.solution
+    refuse_ramps(solution.problem, "derivatives of loads")
     by_force, force_error = (np.array(part) for part in pressure_rates(solution, lift.s, "force"))
     out, note = {}, "" if solution.problem.hole is None else OF_THE_BRANCH
     names = PARAMETERS if solution.problem.hole is None else inputs_of(solution.problem)

@@ -22,6 +22,7 @@ from rodwell.analysis.discrete.curved import undeformed_place
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.errors import InputError, checked_number, checked_whole
 from rodwell.physics.on_wall.frames import frames
+from rodwell.problem.clearances import refuse_ramps
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -144,6 +145,7 @@ def geometry(
 ) -> Geometry:
     """Return the rod of ``solution`` in space; arguments and errors as in :meth:`rodwell.Solution.geometry`."""
     problem = solution.problem
+    refuse_ramps(problem, "pictures and shapes in space")
     count = _places(solution, places)
     s = np.linspace(0.0, 1.0, count)
     fields = solution.fields(s)

@@ -10,7 +10,8 @@ from rodwell.analysis.discrete.family import shape
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import fields_at
-from rodwell.analysis.state.in_hole import end_loads_in_hole, in_hole
+from rodwell.analysis.state.in_hole import end_loads_in_hole
+from rodwell.analysis.state.on_ramps import OnRamps, beside_wall, on_even_wall
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
@@ -38,7 +39,8 @@ class Reaction:
         Components along i (up across the cylinder), j, k (along its axis, from s = 0 to s = 1), (3,) each, in B/L² and
         B/L. The moment is about the axis of the rod, or of the cylinder, at that end. In a curved hole along its N₁,
         N₂, T there, and of the rod only; the collar that takes F bends the rod with the hole, too: at s = 1 the force
-        along T is F less what that moment drives, F − M·(κₙu₂ − κₜd₁)/h.
+        along T is F less what that moment drives, F − M·(κₙu₂ − κₜd₁)/h. Where the clearance varies, of the rod only,
+        too.
     force_error, moment_error
         Error estimates, (3,).
     """
@@ -58,8 +60,8 @@ def energies(solution: Equilibrium) -> dict[str, Value]:
 
 
 def _energies(problem: Problem, family: Family, state: State) -> dict[str, float]:
-    if problem.hole is not None:
-        return in_hole(problem, family, state).energies()
+    if not on_even_wall(problem):
+        return beside_wall(problem, family, state).energies()
     space, p = state.space, family.parameters(state.lam)
     s, w = space.points, space.weights
     y, y1, y2 = shape(family, state, s, 3)
@@ -114,6 +116,8 @@ def reactions(solution: Equilibrium) -> tuple[Reaction, ...]:
 def _reactions(
     problem: Problem, family: Family, state: State
 ) -> dict[tuple[str, float], tuple[FloatArray, FloatArray]]:
+    if problem.ramps:
+        return OnRamps(problem, family, state).end_loads()
     return end_loads(fields_at(problem, family, state, np.array([0.0, 1.0])))
 
 

@@ -19,6 +19,7 @@ from rodwell.analysis.state.curved_certificate import residuals
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import element_fields, gauss_calculus, gauss_places
 from rodwell.analysis.state.own_places import near_by
+from rodwell.analysis.state.ramped_certificate import residuals as ramped
 from rodwell.physics.on_wall import equations
 from rodwell.physics.on_wall.equations import NAMES, NUMBERS, Fifteen, Load
 from rodwell.quantities.arrays import FloatArray
@@ -143,6 +144,8 @@ def certificate_of(solution: Equilibrium) -> Certificate:
     if problem.hole is not None:
         own = near_by(problem, *solution.levels[1])
         return Certificate(residuals(problem, *own), max(LIMIT, SLACK * solution.meshes.rtol))
+    if problem.ramps:
+        return Certificate(ramped(problem, *solution.levels[1]), max(LIMIT, SLACK * solution.meshes.rtol))
     half, fields = element_fields(problem, solution.meshes.fine, solution.point.fine)
     derivative = gauss_calculus()[3]
     whole = load_of(problem, solution.force)

@@ -48,15 +48,11 @@ def residuals(problem: Problem, family: Family, state: State) -> dict[str, float
         part = np.einsum("pq,eqi->epi", running, by_element) * half[:, None, None]
         return np.asarray(before[:, None] + part).reshape(-1, 3), np.sum(pieces, axis=0)
 
-    def left(*terms: FloatArray, least: float = _TINY) -> float:
-        size = max(least, *(float(np.max(np.linalg.norm(term, axis=1))) for term in terms))
-        return float(np.max(np.linalg.norm(np.sum(terms, axis=0), axis=1))) / size
-
     fields = rod.strand(s)
     centre, frame = rod.frames(s)
     tangent, d1, u1 = frame.transpose(1, 0, 2)
 
-    force, moment = (_vector(fields, kind, frame) for kind in ("F", "M"))
+    force, moment = (vector_of(fields, kind, frame) for kind in ("F", "M"))
     largest = float(np.max(np.linalg.norm(force, axis=1)))  # a rod that lies still has no shear
     weight = np.zeros_like(force)
     weight[:, 2] = rod.parameters[AXIAL_WEIGHT] * problem.rod.weight(s)
@@ -70,14 +66,20 @@ def residuals(problem: Problem, family: Family, state: State) -> dict[str, float
     middle = s.size // 2  # where third derivatives of a spline are known best
     first = force[middle] - gained[middle]
     out = {
-        "r′ = t": left(rate(centre), -tangent),
-        "t′ = M × t": left(rate(tangent), -bent),
-        "force balance": left(force - first, -gained, least=max(float(np.max(np.abs(weight))), _TINY)),
-        "moment balance": left(rate(moment), np.cross(tangent, force), least=largest),
+        "r′ = t": largest_left(rate(centre), -tangent),
+        "t′ = M × t": largest_left(rate(tangent), -bent),
+        "force balance": largest_left(force - first, -gained, least=max(float(np.max(np.abs(weight))), _TINY)),
+        "moment balance": largest_left(rate(moment), np.cross(tangent, force), least=largest),
     }
     if steps.size:
         out["moment at steps"] = _moment_at_steps(rod, steps, float(np.max(np.abs(fields["rod_M2"]))))
     return out | _ends(problem, rod, np.array([first, first + whole_gain]))
+
+
+def largest_left(*terms: FloatArray, least: float = _TINY) -> float:
+    """What is left of a sum of vectors along the rod, (m, 3) each, against the largest of them."""
+    size = max(least, *(float(np.max(np.linalg.norm(term, axis=1))) for term in terms))
+    return float(np.max(np.linalg.norm(np.sum(terms, axis=0), axis=1))) / size
 
 
 def _at_steps(rod: InHole, steps: FloatArray) -> FloatArray:
@@ -95,7 +97,7 @@ def _moment_at_steps(rod: InHole, steps: FloatArray, size: float) -> float:
     return float(np.max(np.abs(above - below))) / max(size, _TINY)
 
 
-def _vector(fields: dict[str, FloatArray], kind: str, frame: FloatArray) -> FloatArray:
+def vector_of(fields: dict[str, FloatArray], kind: str, frame: FloatArray) -> FloatArray:
     """Force ("F") or moment ("M") of the rod in space, (m, 3)."""
     return np.asarray(sum(fields[f"rod_{kind}{i + 1}"][:, None] * frame[:, i] for i in range(3)))
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from rodwell.analysis.discrete.family import given_of, shape
-from rodwell.analysis.state.in_hole import in_hole
+from rodwell.analysis.state.on_ramps import beside_wall, on_even_wall
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -72,8 +72,8 @@ def local(rod: Rod, parameters: FloatArray, s: FloatArray) -> Local:
 
 def end_force(problem: Problem, family: Family, state: State) -> end_loads.EndForce:
     """What acts on the rod at s = 1, and where that is."""
-    if problem.hole is not None:
-        last = in_hole(problem, family, state).fields(np.array([1.0]))
+    if not on_even_wall(problem):
+        last = beside_wall(problem, family, state).fields(np.array([1.0]))
         shear, moment, angle, eta = (float(last[name][0]) for name in ("rod_F3", "rod_M2", "xi2", "eta"))
         return end_loads.EndForce(shear, moment, angle, float(np.sin(eta)))
     y, y1 = shape(family, state, np.array([1.0]), 2)[:, 0]
@@ -104,8 +104,8 @@ def pressure_at(rod: Rod, parameters: FloatArray, s: FloatArray, u: FloatArray) 
 def total_wall_force(problem: Problem, family: Family, state: State) -> float:
     """∫|p| ds in B/L², and of a string the forces of the wall at single places, at steps of the stiffness."""
     space, parameters = state.space, family.parameters(state.lam)
-    if problem.hole is not None:
-        pressure = in_hole(problem, family, state).strand(space.points)["contact_pressure"]
+    if not on_even_wall(problem):
+        pressure = beside_wall(problem, family, state).strand(space.points)["contact_pressure"]
     else:
         pressure = pressure_at(problem.rod, parameters, space.points, shape(family, state, space.points, 4))
     total = float(space.weights @ np.abs(pressure))
@@ -116,8 +116,8 @@ def total_wall_force(problem: Problem, family: Family, state: State) -> float:
 
 def steps_of(problem: Problem, family: Family, state: State) -> tuple[FloatArray, FloatArray]:
     """Couple about u₁ and force along d₁, (k,) each, of the wall on the rod at the k steps between sections."""
-    if problem.hole is not None:
-        return in_hole(problem, family, state).steps()
+    if not on_even_wall(problem):
+        return beside_wall(problem, family, state).steps()
     return _steps_and_jumps(problem, family, state)[:2]
 
 
@@ -151,12 +151,12 @@ def _with_steps(
 def fields_at(
     problem: Problem, family: Family, state: State, s: FloatArray, *, balance: bool = True
 ) -> dict[str, FloatArray]:
-    """All fields at ``s`` (m,), in units B = L = 1; of a rod in a curved hole those of the rod.
+    """All fields at ``s`` (m,), in units B = L = 1; of a curved hole or a varying clearance those of the rod.
 
     There ``balance`` says whether "tangential_balance" is wanted, which takes as long as all the others.
     """
-    if problem.hole is not None:
-        return in_hole(problem, family, state).fields(s, balance)
+    if not on_even_wall(problem):
+        return beside_wall(problem, family, state).fields(s, balance)
     space, end, p = state.space, end_force(problem, family, state), family.parameters(state.lam)
     rates = _rates(problem, p, end)
     integrals = _running_integrals(lambda places: rates(places, shape(family, state, places, 4)), s, space)
@@ -215,7 +215,7 @@ def largest(problem: Problem, family: Family, state: State, name: str) -> tuple[
 
 def _field_at(problem: Problem, family: Family, state: State, name: str, s: FloatArray) -> FloatArray:
     """One field at ``s`` (m,): what follows from y and its derivatives alone needs none of the integrals of others."""
-    if problem.hole is None and name in ("contact_pressure", "xi2"):
+    if on_even_wall(problem) and name in ("contact_pressure", "xi2"):
         u, parameters = shape(family, state, s, 4), family.parameters(state.lam)
         if name == "contact_pressure":
             return pressure_at(problem.rod, parameters, s, u)

@@ -10,6 +10,7 @@ from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import fields_at, steps_of
+from rodwell.analysis.state.on_ramps import on_even_wall
 from rodwell.analysis.straight.lying import lying_steps
 from rodwell.errors import InputError
 from rodwell.problem.problem import Problem
@@ -44,7 +45,8 @@ class WallLoads:
         the left, looking towards s = 0; of a rod that floats from the high side, towards the right. In states of equal
         contact at several places, at the first.
     cylinder
-        What the cylinder itself carries; None in a curved hole, whose tube the equations of a straight one do not tell.
+        What the cylinder itself carries; None in a curved hole and where the clearance varies: equations of a straight
+        tube do not tell.
     """
 
     contact: Peak
@@ -189,7 +191,7 @@ def wall_loads(solution: Equilibrium) -> WallLoads:
     contact = solution.largest("contact_pressure")
     there = np.array([contact.s])
     angles = (float(fields_at(solution.problem, f, state, there)["xi2"][0]) for f, state in solution.levels)
-    straight = solution.problem.hole is None
+    straight = on_even_wall(solution.problem)
     return WallLoads(contact, solution.total_wall_force, compared(*angles), _carried(solution) if straight else None)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from rodwell.analysis.straight.kept import factors_of, loads_on_mesh, starting_space
 from rodwell.analysis.straight.lying_loads import loads_of_lying_rod, value_of
 from rodwell.analysis.straight.multiple import close_to_last, equal_to, told_apart
-from rodwell.analysis.straight.ramps import loads_on_ramps, steepest
+from rodwell.analysis.straight.ramps import axial_contact, loads_on_ramps
 from rodwell.analysis.straight.refining import refined_loads
 from rodwell.analysis.straight.without_wall import LoadsWithoutWall, WallTouch, loads_without_wall
 from rodwell.errors import InputError, checked_whole
@@ -137,9 +137,12 @@ class CriticalLoads(tuple[Mode, ...], Shown):
         return touch
 
     @property
-    def slope_squared(self) -> float:
-        """(max abs(Δ′))², the order of what is left out of these loads, as a part of them; 0 if Δ is constant."""
-        return steepest(self[0].problem) ** 2
+    def axial_contact(self) -> float:
+        """How much the wall pushes the rod along the hole at the first load, towards s = 1 negative, in B/L².
+
+        0 where the clearance is constant: see :func:`rodwell.analysis.straight.ramps.axial_contact`.
+        """
+        return axial_contact(self[0].problem, self[0].force) if self[0].problem.ramps else 0.0
 
     def plot(self, ax: Axes | None = None, *, scales: Scales | None = None, most: int = 4) -> Axes:
         """Draw the first ``most`` modes y(s), each scaled to a largest deflection of 1; return the axes.
@@ -167,7 +170,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     -------
     CriticalLoads
         Modes in the order in which they are met as compression grows: force falling, tension positive. Where the
-        clearance varies, to the order of its slope's square, those at which the wall presses the rod everywhere.
+        clearance varies, those at which the wall presses the rod everywhere.
 
     Raises
     ------

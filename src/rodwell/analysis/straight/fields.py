@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from rodwell.analysis.discrete.curved import lifted
+from rodwell.analysis.discrete.family import parameters
+from rodwell.analysis.discrete.ramped import along_ramps
 from rodwell.analysis.straight.lying import lying_fields
+from rodwell.physics.on_wall.ramps import strand, wall_at
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -17,11 +21,13 @@ def straight_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, 
 
     ``force`` is the end force at s = 1, tension positive: the axial force is N(s) = F + γ cos α (s − 1) (of
     sections with their weights), the contact pressure that of the lateral weight. In a curved hole they are those of
-    :func:`rodwell.analysis.straight.lying.lying_fields`.
+    :func:`rodwell.analysis.straight.lying.lying_fields`; where the clearance varies the wall bends and pushes the rod.
     """
     if problem.hole is not None:
         return lying_fields(problem, force, s)
     s = np.asarray(s, dtype=float)
+    if problem.ramps:
+        return _on_ramps(problem, force, s)
     out = {name: np.zeros_like(s) for name in ZERO}
     axial, foundation = problem.axial_weight * (s - 1.0), np.full_like(s, problem.foundation)
     turned = problem.twist / problem.torsional_stiffness * s
@@ -36,4 +42,21 @@ def straight_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, 
         "rod_F1": force + axial,
         "rod_M1": np.full_like(s, -problem.twist),
         "contact_pressure": -foundation,
+    }
+
+
+def _on_ramps(problem: Problem, force: float, s: FloatArray) -> dict[str, FloatArray]:
+    """The same where the clearance varies along the rod; no fields of the cylinder."""
+    given = along_ramps(problem)
+    rod, none = strand(s, np.zeros((4, s.size)), given(s).T, parameters(problem, force)), np.zeros_like(s)
+    ahead = lifted(problem.rod.breaks, lambda x: np.asarray(wall_at(x, given(x).T).lying[0]))
+    return {
+        **dict.fromkeys(("y", "eta", "xi1", "omega1", "omega2", "rod_F3", "rod_M1", "rod_M2"), none),
+        "z": ahead(np.zeros(1)) - ahead(s),
+        "xi2": np.full_like(s, np.pi if problem.on_top else 0.0),
+        "omega3": np.asarray(rod.omega[2]),
+        "rod_F1": np.asarray(rod.force[0]),
+        "rod_F2": np.asarray(rod.force[1]),
+        "rod_M3": problem.rod.stiffness(s) * rod.omega[2],
+        "contact_pressure": np.asarray(rod.pressure),
     }

@@ -11,18 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.discrete.curved import along_rod
 from rodwell.analysis.discrete.curved_meshes import linear_space
-from rodwell.analysis.discrete.family import parameters, spline_ends
 from rodwell.analysis.straight.lying import refuse_spatial
+from rodwell.analysis.straight.lying_pencil import Pencil, below_all
 from rodwell.analysis.straight.refining import refined_loads
 from rodwell.analysis.straight.scale import load_scale
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.equilibria import eigen
-from rodwell.numerics.splines.banded import factorise
 from rodwell.numerics.splines.spaces import SplineSpace
-from rodwell.physics.on_wall.curved import model_of
-from rodwell.physics.on_wall.parameters import COUNT
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Value
@@ -54,90 +50,13 @@ class Found:
     coarse_vectors: FloatArray
 
 
-def variation_factors(problem: Problem, space: SplineSpace) -> tuple[FloatArray, FloatArray]:
-    """Hessian of the density at y = 0, (3, 3, m), without an end force, and by it."""
-    rows = along_rod(problem)(space.points)
-    at_rest, pushed = (hessian_at(space.points, rows, parameters(problem, force)) for force in (0.0, 1.0))
-    return at_rest, pushed - at_rest
-
-
-def hessian_at(s: FloatArray, rows: FloatArray, p: FloatArray) -> FloatArray:
-    """Hessian of the density at y = 0 by y, y′, y″, (3, 3, m), at places (m,), in the hole given by ``rows`` there."""
-    hessian = model_of(rows.T).density(s, np.zeros((3, s.size)), rows.T, p, np.zeros(COUNT))[-1]
-    return np.array([[np.broadcast_to(x, s.shape) for x in row] for row in hessian], dtype=float)
-
-
-def _band(space: SplineSpace, factors: FloatArray) -> FloatArray:
-    """Band (n, p + 1) of the form with factors (3, 3, m) at the quadrature points."""
-    local, elements = space.degree + 1, space.elements
-    table = space.table.reshape(elements, -1, 3, local)
-    weighted = (factors * space.weights).reshape(3, 3, elements, -1)
-    blocks = np.einsum("eqda,dfeq,eqfb->eab", table, weighted, table, optimize=True)
-    band = np.zeros((space.size, local))
-    for a in range(local):
-        for b in range(a + 1):
-            np.add.at(band[:, a - b], space.starts + b, blocks[:, a, b])
-    return band
-
-
-class _Pencil:
-    """K and G on a mesh, restricted to what the ends leave free."""
-
-    def __init__(self, problem: Problem, space: SplineSpace) -> None:
-        self.space = space
-        self.held = spline_ends(problem).among(space.size)
-        self.factors = variation_factors(problem, space)
-        self.k, self.g = (self.held.free_part(_band(space, f)) for f in self.factors)
-        self.slopes = self.held.free_part(space.slope_gram)
-
-    def full(self, block: FloatArray) -> FloatArray:
-        return np.array([self.held.spread(free) for free in block])
-
-    def gram(self, factors: FloatArray, block: FloatArray) -> FloatArray:
-        """Matrix (k, k) of a form for vectors (k, n), from values at the points: squares do not cancel."""
-        values = self.space.at_points(self.full(block))
-        weighted = np.einsum("dfm,kfm->kdm", factors * self.space.weights, values)
-        return np.asarray(np.einsum("kdm,ldm->kl", weighted, values))
-
-    def unstable(self, force: float) -> int:
-        """How many directions are unstable at an end force."""
-        return int(factorise(self.k + force * self.g))
-
-    def softest(self, force: float, count: int = 1) -> tuple[FloatArray, FloatArray]:
-        """Lowest eigenvalues (count,) of K + F G against (1 + |F|)∫v′², rising, and their vectors (count, n)."""
-        band = self.k + force * self.g
-        size = 1.0 + abs(force)  # eigenvalues of about 1: changes are judged against that
-        whole, slope = self.factors[0] + force * self.factors[1], np.zeros_like(self.factors[0])
-        slope[1, 1] = size
-
-        def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
-            return self.gram(whole, block), self.gram(slope, block)
-
-        gram = size * self.slopes
-        values, vectors = eigen.lowest(band, gram, quadrature, count, below_all(band, gram), None)
-        return values[:count], vectors[:count]
-
-    def along(self, vector: FloatArray) -> tuple[float, float]:
-        """Both forms, vKv and vGv, of one vector (n,)."""
-        k, g = (float(self.gram(factors, vector[None])[0, 0]) for factors in self.factors)
-        return k, g
-
-
-def below_all(stiffness: FloatArray, gram: FloatArray) -> float:
-    """A negative number below all eigenvalues of K v = λ G v."""
-    below = -1.0
-    while eigen.count_below(stiffness, gram, below) > 0:
-        below *= 2.0
-    return below
-
-
 def stable_force(problem: Problem, space: SplineSpace, scale: float) -> float | None:
     """An end force at which the lying rod is stable on the wall, or None.
 
     The softest eigenvalue is a concave function of F: its slope at an unstable force tells on which side stable ones
     lie, if there are any.
     """
-    pencil = _Pencil(problem, space)
+    pencil = Pencil(problem, space)
     low, high, force = -np.inf, np.inf, 0.5 * problem.hung_weight
     for number in range(MOST_HALVINGS):
         if pencil.unstable(force) == 0:
@@ -155,7 +74,7 @@ def stable_force(problem: Problem, space: SplineSpace, scale: float) -> float | 
     return None
 
 
-def _between(pencil: _Pencil, force: float, scale: float) -> float:
+def _between(pencil: Pencil, force: float, scale: float) -> float:
     """About the middle of the stable end forces around a stable one, or a scale of load inside of the only limit."""
     low, high = (_reach(pencil, force, sign * scale) for sign in (-1.0, 1.0))
     if np.isfinite(low) and np.isfinite(high):
@@ -163,7 +82,7 @@ def _between(pencil: _Pencil, force: float, scale: float) -> float:
     return high - scale if np.isfinite(high) else low + scale
 
 
-def _reach(pencil: _Pencil, force: float, step: float) -> float:
+def _reach(pencil: Pencil, force: float, step: float) -> float:
     """A stable end force within a fifth of ``step`` of where stability ends in its direction; infinite: nowhere."""
     inside, outside = 0.0, 1.0
     while pencil.unstable(force + outside * step) == 0:
@@ -201,7 +120,7 @@ def loads_of_lying_rod(problem: Problem, count: int, rtol: float, tension: bool 
             "it begins to buckle. Of a string that hangs through a build in tension, take the part below the build"
         )
     if tension:
-        count = min(count, _Pencil(problem, space).unstable(rest + ENDLESS * scale))
+        count = min(count, Pencil(problem, space).unstable(rest + ENDLESS * scale))
         if count == 0:
             return None
     found = refined_loads(
@@ -233,7 +152,7 @@ def _solve(
     start: tuple[FloatArray, FloatArray] | None,
 ) -> tuple[FloatArray, FloatArray]:
     """End forces, those next to ``rest`` first, and full coefficient vectors (k, size), k ≥ ``count``."""
-    pencil = _Pencil(problem, space)
+    pencil = Pencil(problem, space)
     step = scale if tension else -scale
     away = None if start is None else np.abs(start[0] - rest)
     try:
@@ -248,7 +167,7 @@ def _solve(
 
 
 def _in_a_block(
-    pencil: _Pencil, rest: float, step: float, count: int, start: tuple[FloatArray, FloatArray] | None
+    pencil: Pencil, rest: float, step: float, count: int, start: tuple[FloatArray, FloatArray] | None
 ) -> tuple[FloatArray, FloatArray]:
     """Loads on the side of ``step``, all at once, as eigenvalues of the pencil above; and full coefficient vectors."""
     stiff, gram = step * pencil.g, pencil.k + rest * pencil.g
@@ -264,7 +183,7 @@ def _in_a_block(
     return rest - step / values, pencil.full(vectors)
 
 
-def _one_by_one(pencil: _Pencil, rest: float, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+def _one_by_one(pencil: Pencil, rest: float, step: float, count: int) -> tuple[FloatArray, FloatArray]:
     """Loads on the side of ``step``, bracketed by counts, however far apart they are; and full coefficient vectors.
 
     The k-th is where the k-th lowest eigenvalue of K + F G vanishes: Newton's method in F, whose next force is the

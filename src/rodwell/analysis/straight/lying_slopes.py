@@ -16,7 +16,7 @@ import numpy as np
 
 from rodwell.analysis.discrete.curved import along_rod, along_uniform_rod, hole_at, rates_at, undeformed_place
 from rodwell.analysis.discrete.family import parameters
-from rodwell.analysis.straight.lying_loads import hessian_at, variation_factors
+from rodwell.analysis.straight.lying_pencil import hessian_at, variation_factors
 from rodwell.numerics.equilibria.differences import central_slope, one_sided_slope
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.curved import FIRST, LIFT, OFFSET, TERMS

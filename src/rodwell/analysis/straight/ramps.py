@@ -4,68 +4,69 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.discrete.family import spline_ends
+from rodwell.analysis.discrete.family import parameters
 from rodwell.analysis.discrete.meshes import linear_space
-from rodwell.analysis.straight.lying_loads import Found, below_all
+from rodwell.analysis.discrete.ramped import along_ramps, contact_on_ramps
+from rodwell.analysis.straight.lying_loads import Found
+from rodwell.analysis.straight.lying_pencil import Pencil, below_all
 from rodwell.analysis.straight.refining import refined_loads
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria import eigen
 from rodwell.numerics.splines.spaces import SplineSpace
-from rodwell.physics.on_wall.ramps import contact_parts, variation_factors
-from rodwell.problem.clearances import ALL_SMOOTH, LEAST, SMOOTH
+from rodwell.physics.on_wall.ramps import axial_resultant, wall_at
+from rodwell.problem.clearances import check_lies
 from rodwell.problem.problem import Problem
-from rodwell.problem.profile import Profile
-from rodwell.problem.rod import Rod
-from rodwell.quantities.arrays import FloatArray, IntArray
-from rodwell.quantities.value import Peak
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Peak, Value
 
-NODES = 10
-"""Places in a section through which the contact, a polynomial of degree 7 at most, is known."""
+NODES, LAST = 28, 3
+"""Places in a section through which the contact is known, and coefficients at the end that tell how well."""
 
 ROUND_OFF = 1e4 * np.finfo(float).eps
 """Round-off in a fourth derivative, as a part of the clearance over the fourth power of the section's length."""
 
 
-def _derivatives(profile: Profile, orders: int, places: FloatArray, piece: IntArray) -> list[FloatArray]:
-    """A profile and its derivatives in pieces (m,), ``orders`` of them, (m,) each."""
-    out = []
-    for _ in range(orders):
-        out.append(profile.in_pieces(places, piece))
-        profile = profile.derivative
-    return out
+def axial_contact(problem: Problem, force: float) -> float:
+    """How much the wall pushes the lying rod along the hole in all, in B/L²: N(0) is F less the axial weight, and this.
+
+    Positive where it pushes towards s = 1, as a hole that widens towards s = 1 does: it adds to the tension below.
+    """
+    given = along_ramps(problem)(np.zeros(1)).T
+    start = axial_resultant(np.zeros(1), given, wall_at(np.zeros(1), given), parameters(problem, force))
+    return float(start[0]) - force + problem.hung_weight
 
 
-def _parts(
-    problem: Problem, places: FloatArray, piece: IntArray
-) -> tuple[tuple[FloatArray, FloatArray], FloatArray, FloatArray, FloatArray]:
-    """P at F = 0 and by F; b; N at F = 0; Δ: at places (m,) in sections (m,)."""
-    rod = problem.rod
-    stiffness = _derivatives(rod.stiffness, 3, places, piece)
-    clearance = [problem.clearance * one for one in _derivatives(rod.clearance, 5, places, piece)]
-    weight, lever = (one.in_pieces(places, piece) for one in (rod.weight, rod.lever))
-    contact = contact_parts(problem.foundation, problem.axial_weight, stiffness, clearance, weight, lever)
-    return contact, stiffness[0], problem.axial_weight * lever, clearance[0]
+def contact_in_all_on_ramps(problem: Problem, force: float) -> Value:
+    """∫|p| ds in B/L² of the rod that lies on the wall, pressed to it everywhere, at an end force."""
+    breaks, n, found = problem.rod.breaks, problem.rod.breaks.size - 1, []
+    half = 0.5 * np.diff(breaks)
+    for count in (NODES // 2, NODES):
+        nodes, weights = np.polynomial.legendre.leggauss(count)
+        places = (0.5 * (breaks[1:] + breaks[:-1])[:, None] + half[:, None] * nodes).ravel()
+        at_rest, by_force = contact_on_ramps(problem, places, np.repeat(np.arange(n), count))
+        found.append(float(np.abs(at_rest + force * by_force) @ (half[:, None] * weights).ravel()))
+    return Value(found[1], abs(found[1] - found[0]))
 
 
 def least_contact_on_ramps(problem: Problem, force: float) -> Peak:
     """Least contact force per length in B/L³ of the rod that lies on the wall, and where; below 0 it would pull.
 
-    ``force`` is the end force at s = 1 in B/L², tension positive. Between ends of sections the contact force is a
-    polynomial, whose extremes are exact; in each section the one towards an end counts there.
+    ``force`` is the end force at s = 1 in B/L², tension positive. In each section the contact force is taken as the
+    polynomial through NODES places, whose extremes are exact; in each the one towards an end counts there.
     """
     breaks, sign = problem.rod.breaks, -1.0 if problem.outside else 1.0
     x = 0.5 - 0.5 * np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
     n, lengths = breaks.size - 1, np.diff(breaks)
-    (at_rest, by_force), *_ = _parts(
-        problem, (breaks[:-1, None] + lengths[:, None] * x).ravel(), np.repeat(np.arange(n), NODES)
-    )
+    places = (breaks[:-1, None] + lengths[:, None] * x).ravel()
+    at_rest, by_force = contact_on_ramps(problem, places, np.repeat(np.arange(n), NODES))
     values = sign * (at_rest + force * by_force).reshape(n, NODES)
     rows = np.linalg.solve(np.polynomial.chebyshev.chebvander(2.0 * x - 1.0, NODES - 1), values.T).T
     found = [_least(np.polynomial.Chebyshev(row)) for row in rows]
     k = int(np.argmin([value for value, _ in found]))
     shortest = float(np.min(lengths[problem.rod.tapers("clearance")]))
     noise = ROUND_OFF * problem.clearance * problem.rod.stiffness_range[1] / shortest**4
-    return Peak(found[k][0], float(noise) + 64.0 * float(np.finfo(float).eps) * float(np.max(np.abs(values))),
+    noise += float(np.max(np.abs(rows[:, -LAST:])))
+    return Peak(found[k][0], noise + 64.0 * float(np.finfo(float).eps) * float(np.max(np.abs(values))),
                 float(breaks[k] + lengths[k] * found[k][1]))  # fmt: skip
 
 
@@ -91,66 +92,6 @@ def steepest(problem: Problem) -> float:
     return problem.clearance * float(np.max(np.abs(slope.in_pieces(s, np.repeat(np.arange(n), places.size)))))
 
 
-def check_lies(problem: Problem) -> None:
-    """Refuse what is not computed where the clearance varies, and a wall that would have to pull at a single place.
-
-    Raises
-    ------
-    InputError
-        Naming the place.
-    """
-    if problem.twist != 0.0:
-        what = "must be 0 where the clearance varies: a torque pushes a rod sideways that the wall bends, by T₁Δ‴ per "
-        raise InputError("twist", problem.twist, what + "length, so that it lies on no straight generator")
-    for order, (sides, what) in enumerate(
-        zip(_moments(problem.rod), ("a couple", "a force at one place"), strict=True)
-    ):
-        found = np.abs(sides[1] - sides[0]) > SMOOTH * _beside(problem.rod, 2 + order)
-        if np.any(found):
-            name, place = ("BΔ″", "(BΔ″)′")[order], float(problem.rod.breaks[1:-1][found][0])
-            raise InputError(
-                "sections, clearance", f"{name} jumps at s/L = {place:.6g}",
-                f"makes the wall exert {what} there, which is not computed: the wall would have to pull the rod there "
-                f"or beside it, and the string bridges it. Let {name} go on smoothly. {ALL_SMOOTH}, with a stiffness "
-                "that goes on smoothly too",
-            )  # fmt: skip
-    _check_ends(problem)
-
-
-def _moments(rod: Rod) -> tuple[FloatArray, FloatArray]:
-    """BΔ″ and its derivative on both sides of ends of sections, over the problem's B and Δ, (2, n − 1) each."""
-    steps, piece = rod.breaks[1:-1], np.arange(rod.breaks.size - 2)
-    out = []
-    for side in (piece, piece + 1):
-        b, b1 = _derivatives(rod.stiffness, 2, steps, side)
-        _, _, d2, d3 = _derivatives(rod.clearance, 4, steps, side)
-        out.append((b * d2, b1 * d2 + b * d3))
-    return np.array([one[0] for one in out]), np.array([one[1] for one in out])
-
-
-def _beside(rod: Rod, order: int) -> FloatArray:
-    """The size that BΔ and derivatives of this order have beside ends of sections, (n − 1,)."""
-    least, most = rod.ranges["clearance"]
-    size = rod.ranges["stiffness"][1] * (most - least + LEAST * most) / np.diff(rod.breaks) ** order
-    return np.asarray(np.maximum(size[:-1], size[1:]))
-
-
-def _check_ends(problem: Problem) -> None:
-    """Refuse ends that would have to hold more of the rod than they do where the wall is inclined or curved."""
-    rod, ends, pieces = problem.rod, np.array([0.0, 1.0]), np.array([0, problem.rod.breaks.size - 2])
-    derivatives = np.abs(_derivatives(rod.clearance, 4, ends, pieces)[1:])  # (3, 2)
-    least, most = rod.ranges["clearance"][:, pieces]
-    size = most - least + LEAST * most
-    lengths = np.diff(rod.breaks)[pieces]
-    vanish = derivatives <= SMOOTH * size / lengths ** np.array([1.0, 2.0, 3.0])[:, None]
-    for which, end in enumerate(problem.ends):
-        asked = {"free": vanish[:, which], "guided": vanish[:, which], "loose": vanish[:, which],
-                 "ball": vanish[1:2, which]}.get(end, np.array([True]))  # fmt: skip
-        if not np.all(asked):
-            what = f"{end} at s = {which} where the clearance varies is not computed: let it be constant there, or "
-            raise InputError("ends", "-".join(problem.ends), what + "hold the end (clamped, pinned)")
-
-
 def refuse_pull(problem: Problem, force: float) -> None:
     """Raise where the wall would have to pull the rod at an end force, with the place.
 
@@ -169,7 +110,7 @@ def refuse_pull(problem: Problem, force: float) -> None:
 
 
 def loads_on_ramps(problem: Problem, count: int, rtol: float) -> Found:
-    """Critical loads of the rod that lies on a wall whose clearance varies, to the order of Δ′².
+    """Critical loads of the rod that lies on a wall whose clearance varies, whatever its slope.
 
     Only those at which the wall presses the rod everywhere: at higher compression it has left the wall.
 
@@ -198,20 +139,15 @@ def _solve(
     problem: Problem, space: SplineSpace, count: int, start: tuple[FloatArray, FloatArray] | None
 ) -> tuple[FloatArray, FloatArray]:
     """λ = −F, rising, and full coefficient vectors (k, size), k ≥ ``count``."""
-    of_k, of_g = variation_factors(*_parts(problem, space.points, problem.rod.clearance.piece_of(space.points)))
-    held = spline_ends(problem).among(space.size)
-    stiffness, gram = held.free_part(space.form(of_k)), held.free_part(space.form(of_g))
-
-    def full(block: FloatArray) -> FloatArray:
-        return np.array([held.spread(free) for free in block])
+    pencil = Pencil(problem, space)
 
     def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
-        whole = full(block)
-        return space.grams(of_k, whole)[0], space.grams(of_g, whole)[0]
+        return pencil.gram(pencil.factors[0], block), pencil.gram(pencil.factors[1], block)
 
-    guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, held.free]))
+    guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, pencil.held.free]))
     try:
-        values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below_all(stiffness, gram), guess)
+        below = below_all(pencil.k, pencil.g)
+        values, vectors = eigen.lowest(pencil.k, pencil.g, quadrature, count, below, guess)
     except eigen.EigenError as error:
         raise NotConvergedError(f"critical loads: {error}") from None
-    return values, full(vectors)
+    return values, pencil.full(vectors)

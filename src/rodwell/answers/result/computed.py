@@ -29,6 +29,7 @@ from rodwell.answers.result.reach import first_branch
 from rodwell.answers.result.spread import Spread, spread_of_load
 from rodwell.case.case import Case
 from rodwell.errors import NotConvergedError
+from rodwell.problem.clearances import refuse_ramps
 from rodwell.quantities.value import Peak, Value
 
 if TYPE_CHECKING:
@@ -259,13 +260,14 @@ def compute(case: Case, progress: Progress | None = None, begun: Callable[[Compu
     Raises
     ------
     InputError
-        For a curved hole in which the rod lies on this side at no end force.
+        For a curved hole in which the rod lies on this side at no end force, or a clearance that varies along the rod.
     NotConvergedError
         If the critical loads cannot be computed, or the first branch cannot be started. One that ends before
         ``load.until`` or a load that acts is no error: :mod:`rodwell.answers.result.reach` says so.
     """
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
+    refuse_ramps(problem, "answers with all that `rodwell run` has of a uniform rod, and studies,")
     first_run.begin(case.problem)
     if problem.hole is not None and not problem.hole.planar:
         lying = lying_along(case, tell)

@@ -44,11 +44,13 @@ class SplineSpace:
     kinks
         Mesh points inside at which only u and u′ are continuous, rising, (k,): where a coefficient of the equations
         jumps. The knot there stands p − 1 times.
+    smooth
+        Derivatives that are continuous at each kink, (k,), 1 unless said otherwise: the knot stands p − smooth times.
 
     Attributes
     ----------
     size
-        Number of coefficients, elements + degree, and p − 2 more for each kink.
+        Number of coefficients, elements + degree, and p − 1 − smooth more for each kink.
     starts
         First basis function of each element, (elements,).
     points, weights
@@ -57,7 +59,12 @@ class SplineSpace:
     """
 
     def __init__(
-        self, breaks: FloatArray, degree: int, per_element: int | None = None, kinks: FloatArray | None = None
+        self,
+        breaks: FloatArray,
+        degree: int,
+        per_element: int | None = None,
+        kinks: FloatArray | None = None,
+        smooth: IntArray | None = None,
     ) -> None:
         self.breaks = np.ascontiguousarray(breaks, dtype=float)
         self.degree = degree
@@ -67,7 +74,8 @@ class SplineSpace:
         if not np.array_equal(self.breaks[self.kink_elements], self.kinks):
             raise ValueError("kinks must be mesh points")
         times = np.ones(self.elements + 1, dtype=np.int64)
-        times[self.kink_elements] = degree - 1
+        self.smooth = np.ones(self.kinks.size, dtype=np.int64) if smooth is None else smooth
+        times[self.kink_elements] = degree - self.smooth
         self.per_element = degree - 1 if per_element is None else per_element
         self.tags = (0,) * (degree + 1), (0,) * self.per_element  # their lengths: what compiled loops must know
         self._tables: dict[tuple[int, bytes], tuple[FloatArray, NDArray[np.int64]]] = {}
@@ -202,7 +210,8 @@ class SplineSpace:
         """Return the space with the ``marked`` elements (all, by default) halved."""
         middles = 0.5 * (self.breaks[:-1] + self.breaks[1:])
         new = middles if marked is None else middles[marked]
-        return SplineSpace(np.sort(np.concatenate([self.breaks, new])), self.degree, self.per_element, self.kinks)
+        mesh = np.sort(np.concatenate([self.breaks, new]))
+        return SplineSpace(mesh, self.degree, self.per_element, self.kinks, self.smooth)
 
     def project(self, values: FloatArray, ends: Ends) -> FloatArray:
         """Coefficients of the L² projection of a function known at the quadrature points, (m,), held ends zero."""
@@ -221,7 +230,8 @@ class SplineSpace:
         """Whether the mesh is symmetric about the middle, kinks and all."""
         mirrored = self.elements - self.kink_elements[::-1]
         same = np.max(np.abs(self.breaks + self.breaks[::-1] - 1.0)) <= 1e-13
-        return bool(same) and np.array_equal(self.kink_elements, mirrored)
+        alike = np.array_equal(self.smooth, self.smooth[::-1])
+        return bool(same) and np.array_equal(self.kink_elements, mirrored) and alike
 
     @property
     def _element_table(self) -> FloatArray:

@@ -37,8 +37,8 @@ LAMBDA, OMEGA2, OMEGA3 = (Fifteen._fields.index(name) for name in ("lam", "omega
 
 
 def takes(problem: Problem) -> bool:
-    """Whether the other program solves states of a problem: in straight holes, of few sections."""
-    return problem.hole is None and len(problem.sections) <= MOST_SECTIONS
+    """Whether the other program solves states of a problem: in straight holes of one clearance, of few sections."""
+    return problem.hole is None and not problem.ramps and len(problem.sections) <= MOST_SECTIONS
 
 
 def most_sections(problem: Problem) -> None:

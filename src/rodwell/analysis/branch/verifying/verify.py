@@ -23,6 +23,7 @@ from rodwell.analysis.branch.verifying.other_program import Dense, Guess, highes
 from rodwell.analysis.state.fields import GRID
 from rodwell.errors import InputError, NotConvergedError, checked_number
 from rodwell.physics.on_wall.equations import NAMES
+from rodwell.problem.clearances import refuse_ramps
 from rodwell.quantities.arrays import FloatArray
 
 RTOL = 1e-8
@@ -189,6 +190,7 @@ def verify(
         If the other program does not converge where lift-off is looked for.
     """
     branch.problem.refuse_curved("branches are held against the other program")
+    refuse_ramps(branch.problem, "branches held against the other program")
     if not isinstance(branch, Branch):
         how = "must be a branch, as from follow; of a state, the branch that it is on, with forces=[its end force]"
         raise InputError("branch", branch, how)
