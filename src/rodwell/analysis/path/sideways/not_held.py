@@ -1,4 +1,4 @@
-"""A string in a bend that nothing holds at steps of its stiffness: the load at which it buckles sideways.
+and problem.rod.stepped"""A string in a bend that nothing holds at steps of its stiffness: the load at which it buckles sideways.
 
 On the wall all along lies a string only where something holds its slope at these steps
 (:mod:`rodwell.analysis.straight.lying`); one that nothing holds is off the wall beside them, and may buckle sooner.
@@ -18,7 +18,7 @@ from rodwell.quantities.tolerance import RTOL
 
 def asks_to_be_held(problem: Problem) -> bool:
     """Whether a string lies along its hole only if something holds it at steps of its stiffness."""
-    return problem.bent and not problem.bridges and problem.rod.stepped
+    return problem.bent and not problem.bridges 
 
 
 def buckles_if_not_held(
