@@ -78,7 +78,7 @@ _HOME = {
     "local_state": "rodwell.analysis.endless.local",
     "save_branch": "rodwell.store.restart",
     "screen": "rodwell.studies.well.screening",
-    "sensitivities": "rodwell.analysis.path.sideways.bridged_slopes",
+    "sensitivities": "rodwell.analysis.path.bridged_slopes",
     "load_path": "rodwell.analysis.path.follow",
     "load_branch": "rodwell.store.restart",
     "lying_rod": "rodwell.analysis.loads.lying_rod",
@@ -122,10 +122,10 @@ if TYPE_CHECKING:
     from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
     from rodwell.analysis.loads.torsion import Torsion, torsion
     from rodwell.analysis.loads.turns import turns_of_least_energy
+    from rodwell.analysis.path.bridged_slopes import sensitivities
     from rodwell.analysis.path.elsewhere import follow_contact
     from rodwell.analysis.path.follow import load_path
     from rodwell.analysis.path.load_path import LoadPath
-    from rodwell.analysis.path.sideways.bridged_slopes import sensitivities
     from rodwell.analysis.proof.certify import CertifiedLoads, certify
     from rodwell.analysis.proof.paper_values import paper_values
     from rodwell.analysis.state.certificate import Certificate

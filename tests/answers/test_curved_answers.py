@@ -15,7 +15,6 @@ from scipy.interpolate import make_interp_spline
 
 import rodwell
 from rodwell.analysis.branch.solution import Solution
-from rodwell.analysis.path.events import PathPoint
 from rodwell.analysis.state.in_hole import InHole
 from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.result.assessment import BUCKLED, LEFT, PULLED, STRAIGHT
@@ -216,22 +215,3 @@ def test_a_stiff_rod_in_a_bend_that_comes_and_goes_needs_compression_to_lie_ther
     text = " ".join(sentences(found))
     assert "It lies there only if the compression at s = 1 is at least 19.3707 B/L²: under less the rod leaves" in text
     assert "above the end force −19.3707 B/L² at s = 1" in " ".join(status.reason for status in statuses(found))
-
-
-def test_of_a_string_that_nothing_holds_at_its_steps_the_load_is_told_beside_that_of_the_held_one() -> None:
-    """It buckles before the held one in this hole: in the verdict, in the words, and as data."""
-    case = rodwell.Case.read(EXAMPLE.with_name("assembly-in-build.toml"))
-    first = rodwell.load_path(case.problem, rtol=case.rtol).first("critical")
-    assert first is not None
-    load = case.problem.hung_weight - first.force.value
-    between = 0.5 * (load + case.problem.hung_weight - rodwell.critical_loads(case.problem)[0].force)
-    shown = replace(case.applied[0], force=case.problem.hung_weight - between)
-    found = rodwell.answer(replace(case, applied=(shown,), modes=1))
-    assert isinstance(found.not_held, PathPoint)
-    assert found.key_numbers["critical_load_not_held"].number == found.not_held.force == first.force
-    assert found.buckling.value < first.force.value  # the unsafe one of both is the held one
-    assert answer_dict(found)["lying"]["not_held_at_steps"]["value"] == first.force.value
-    told = " ".join(sentences(found))
-    assert "lbf if nothing holds it there" in told
-    assert "less compression than held" in told
-    assert "Under the most compressive load that acts it has buckled then" in told

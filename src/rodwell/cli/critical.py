@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.critical_bridged import bridged_numbers, first_buckling, show_bridged
-from rodwell.cli.critical_in_hole import lying_numbers, show_lying
+from rodwell.cli.critical_in_hole import lying_numbers, show_lying, unheld_load
 from rodwell.cli.critical_varying import show_varying, varying_numbers
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
@@ -59,10 +59,8 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
         return
     loads = critical_loads(problem, modes, rtol=rtol)
     if problem.hole is not None:
-        from rodwell.analysis.path.sideways.not_held import buckles_if_not_held  # noqa: PLC0415
-
         tensile = tensile_loads(problem, modes, rtol=rtol)
-        unheld = buckles_if_not_held(problem, rtol)
+        unheld = unheld_load(problem, rtol)
         show_lying(loads, tensile, unheld, as_json)
         keep(where, lambda: lying_numbers(loads, tensile, unheld), quiet=as_json)
         return

@@ -12,16 +12,15 @@ from rodwell.problem.words import side_of_wall
 from rodwell.quantities.text import plain, with_error
 
 if TYPE_CHECKING:
-    from rodwell.analysis.path.events import PathPoint
     from rodwell.analysis.straight.critical import CriticalLoads, Mode
     from rodwell.problem.problem import Problem
-    from rodwell.quantities.value import Peak
+    from rodwell.quantities.value import Peak, Value
     from rodwell.report.folders.numbers import Numbers
 
 CONTACT = "B/L³"
 
 
-def show_lying(loads: CriticalLoads, tensile: CriticalLoads, unheld: PathPoint | str | None, as_json: bool) -> None:
+def show_lying(loads: CriticalLoads, tensile: CriticalLoads, unheld: Value | str | None, as_json: bool) -> None:
     """Print loads of both signs and where the rod lies, or all of it as JSON; ``unheld`` is that of a string."""
     if as_json:
         print_json(_data(loads, tensile, unheld))
@@ -30,11 +29,31 @@ def show_lying(loads: CriticalLoads, tensile: CriticalLoads, unheld: PathPoint |
     if isinstance(unheld, str):
         wrapped(f"When it buckles if nothing holds it at its steps was not found: {unheld}")
     elif unheld is not None:
-        load = with_error(unheld.force)
-        click.echo(f"  not held at its steps, off the wall beside them: {load}   out of the vertical plane")
+        click.echo(
+            f"  not held at its steps, off the wall beside them: {with_error(unheld)}   out of the vertical plane"
+        )
 
 
-def lying_numbers(loads: CriticalLoads, tensile: CriticalLoads, unheld: PathPoint | str | None) -> Numbers:
+def unheld_load(problem: Problem, rtol: float) -> Value | str | None:
+    """The load at which a string buckles sideways that is off the wall beside its steps, or why it is not known.
+
+    None of one without steps of its stiffness, and in holes in which it is not computed.
+    """
+    from rodwell.analysis.off_wall.curved.refused import refuse_holes  # noqa: PLC0415
+    from rodwell.cli.critical_bridged import first_buckling  # noqa: PLC0415
+    from rodwell.errors import RodwellError  # noqa: PLC0415
+
+    if not problem.rod.stepped or problem.axis or problem.walk != 0.0:
+        return None
+    try:
+        refuse_holes(problem, strings=True)
+        found = first_buckling(problem, rtol).first("critical")
+    except RodwellError as error:
+        return str(error)
+    return None if found is None else found.force
+
+
+def lying_numbers(loads: CriticalLoads, tensile: CriticalLoads, unheld: Value | str | None) -> Numbers:
     """Loads as files: the same data, a row for each load, and the modes in compression drawn."""
     from rodwell.plots.profiles import plot_modes  # noqa: PLC0415
     from rodwell.quantities.table import Table  # noqa: PLC0415
@@ -45,11 +64,11 @@ def lying_numbers(loads: CriticalLoads, tensile: CriticalLoads, unheld: PathPoin
     rows = [(kind, mode.number, mode.force, mode.error) for kind, modes in kinds for mode in modes]
     table = Table("critical", columns, tuple(rows))
     if unheld is not None and not isinstance(unheld, str):
-        table = Table("critical", columns, (*rows, ("not held at steps", 1, *unheld.force)))
+        table = Table("critical", columns, (*rows, ("not held at steps", 1, unheld.value, unheld.error)))
     return Numbers("critical", _data(loads, tensile, unheld), table, lambda axes: plot_modes(loads, ax=axes))
 
 
-def _data(loads: CriticalLoads, tensile: CriticalLoads, unheld: PathPoint | str | None) -> dict[str, Any]:
+def _data(loads: CriticalLoads, tensile: CriticalLoads, unheld: Value | str | None) -> dict[str, Any]:
     from rodwell.analysis.state.wall import lying_step_loads  # noqa: PLC0415
     from rodwell.analysis.straight.lying import least_contact, lies_between  # noqa: PLC0415
     from rodwell.answers.words.steps import steps_data  # noqa: PLC0415
@@ -62,7 +81,7 @@ def _data(loads: CriticalLoads, tensile: CriticalLoads, unheld: PathPoint | str 
         "error": [float(e) for e in loads.errors],
         "tensile_loads": [{"value": mode.force, "error": mode.error} for mode in tensile],
         "without_wall": None,
-        **({} if unheld is None else {"not_held_at_steps": _not_held(unheld)}),
+        **({} if unheld is None else {"not_held_at_steps": unheld if isinstance(unheld, str) else unheld.as_dict()}),
         "lying": {
             "side": side_of_wall(problem),
             "lowest_force": _peak(low),
@@ -76,10 +95,6 @@ def _data(loads: CriticalLoads, tensile: CriticalLoads, unheld: PathPoint | str 
         "convention": "end force along the tangent of the rod on the wall at s = 1, tension positive; "
         + ends_text(problem),
     }
-
-
-def _not_held(unheld: PathPoint | str) -> dict[str, float] | str:
-    return unheld if isinstance(unheld, str) else unheld.force.as_dict()
 
 
 def _peak(peak: Peak | None) -> dict[str, float] | None:

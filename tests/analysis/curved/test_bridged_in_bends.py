@@ -16,8 +16,8 @@ from scipy.optimize import brentq, fsolve
 from rodwell import InputError, Problem, critical_loads, load_path
 from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.state import ContactState, contact_state
+from rodwell.analysis.path.bridged_slopes import sensitivities
 from rodwell.analysis.path.bridging import bridged
-from rodwell.analysis.path.sideways.bridged_slopes import sensitivities
 
 Array = np.ndarray
 Strings = tuple[tuple[float, ...], ...]

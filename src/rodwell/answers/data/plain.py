@@ -216,18 +216,8 @@ def _lying(answer: Answer) -> dict[str, Any]:
             for name, one in ends.items()
         },
         **({"steps": steps_data(lying_step_loads(answer.case.problem))} if answer.case.problem.sections else {}),
-        **_not_held(answer),
         **rest,
     }
-
-
-def _not_held(answer: Answer) -> dict[str, Any]:
-    """Where a string buckles that nothing holds at its steps, or why that is not known; nothing of other rods."""
-    found = answer.not_held
-    if found is None:
-        return {}
-    told = found if isinstance(found, str) else _quantity(answer.case.scales, found.force)
-    return {"not_held_at_steps": told}
 
 
 def _other_arm(answer: Answer) -> dict[str, Any] | None:

@@ -17,7 +17,6 @@ from rodwell.answers.result.key_numbers import (
     critical_number,
     first_met,
     in_curved_hole,
-    not_held,
     real_force,
     rotations,
     state_numbers,
@@ -69,8 +68,6 @@ class Answer(Computed, Shown):
         out = [critical_number(mode, kept=self.untouched) for mode in self.critical]
         if self.lying is not None:
             out += lying_numbers(self.lying)
-        else:
-            out += not_held(self.not_held, self.critical[0])
         out += [first_met(self.first_met)] if self.untouched else []
         met = out[-1:] if self.untouched else out[:1]
         out += [] if self.without_wall is None else [without_wall(self.without_wall)]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,9 +30,6 @@ from rodwell.case.case import Case
 from rodwell.errors import NotConvergedError
 from rodwell.problem.clearances import refuse_ramps
 from rodwell.quantities.value import Peak, Value
-
-if TYPE_CHECKING:
-    from rodwell.analysis.path.events import PathPoint
 
 
 @dataclass(frozen=True)
@@ -95,19 +91,6 @@ class Computed:
         if self.lying is not None:
             return lift_off_of(self.lying.end)
         return left_before(self.case.problem, self.critical)
-
-    @cached_property
-    def not_held(self) -> PathPoint | str | None:
-        """Where a string in a bend buckles sideways that nothing holds at its steps, or why that is not known.
-
-        None of rods that need not be held. Computed when first asked for, in about a second.
-        """
-        problem = self.case.problem
-        if not problem.bent or self.lying is not None:
-            return None
-        from rodwell.analysis.path.sideways.not_held import buckles_if_not_held  # noqa: PLC0415 - a verdict does not wait
-
-        return buckles_if_not_held(problem, self.case.rtol)
 
     @cached_property
     def left_in_tension(self) -> Peak | None:

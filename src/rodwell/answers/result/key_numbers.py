@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
@@ -24,9 +22,6 @@ from rodwell.quantities.value import Peak, Value
 from rodwell.strength.cylinder import cylinder_stress
 from rodwell.strength.loaded import LoadedRod
 
-if TYPE_CHECKING:
-    from rodwell.analysis.path.events import PathPoint
-
 
 def critical_number(mode: Mode, *, kept: bool = False) -> KeyNumber:
     """Critical load of a mode; ``kept``: it is that of a rod kept on the wall, and twist makes it buckle before."""
@@ -34,16 +29,6 @@ def critical_number(mode: Mode, *, kept: bool = False) -> KeyNumber:
     label = f"Critical load of mode {mode.number}{' if kept on the wall' if kept else ''}, end force at s = 1"
     scale = force_scale(mode.force) + mode.problem.heaviest
     return KeyNumber(f"critical_load_{mode.number}", label, mode.load, "force", scale, symmetry)
-
-
-def not_held(found: PathPoint | str | None, mode: Mode) -> list[KeyNumber]:
-    """The load of a string in a bend that nothing holds at steps of its stiffness, if it is known."""
-    if found is None or isinstance(found, str):
-        return []
-    label = "Load at which it buckles if nothing holds it at steps of its stiffness, end force at s = 1"
-    note = "sideways; it is off the wall beside them before"
-    scale = force_scale(found.force.value) + mode.problem.heaviest
-    return [KeyNumber("critical_load_not_held", label, found.force, "force", scale, note)]
 
 
 def first_met(mode: Mode | SpatialMode) -> KeyNumber:

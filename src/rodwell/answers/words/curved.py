@@ -6,7 +6,7 @@ from rodwell.analysis.off_wall.curved.refused import in_such_a_hole
 from rodwell.analysis.state.wall import lying_step_loads
 from rodwell.analysis.straight.lying import off_at_steps
 from rodwell.answers.result.answer import Answer
-from rodwell.answers.words.steps import not_held_note, steps_note
+from rodwell.answers.words.steps import steps_note
 from rodwell.answers.words.verdict import in_tension
 from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
 from rodwell.quantities.text import percent
@@ -15,8 +15,7 @@ from rodwell.quantities.value import Value
 
 def in_curved_hole(answer: Answer) -> list[str]:
     """The bending by the hole and its steps, what tension does, what the rod's own places change, what is left out."""
-    said = [_bending(answer), _at_steps(answer), not_held_note(answer.not_held, answer.case, answer.buckling)]
-    said += [in_tension(answer.assessment), _places(answer), left_out(answer)]
+    said = (_bending(answer), _at_steps(answer), in_tension(answer.assessment), _places(answer), left_out(answer))
     return [text for text in said if text]
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.state.wall import StepLoad
-from rodwell.answers.words.wording import forces_of, place_text, size_text
+from rodwell.answers.words.wording import place_text, size_text
 from rodwell.quantities.text import amount, plain
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
-    from rodwell.analysis.path.events import PathPoint
     from rodwell.case.case import Case
     from rodwell.problem.rod import Rod
 
@@ -102,36 +101,6 @@ def _bent_note(lifting: list[StepLoad], case: Case | None, off: float | None) ->
         f"the step, over {far}, before it buckles. The loads told are those of a rod that is held there."
         + (f" {pulled}" if pulled else "")
     )
-
-
-def not_held_note(found: PathPoint | str | None, case: Case, first: Value) -> str:
-    """When a string in a bend buckles that nothing holds at its steps, and loads that act beyond; or nothing.
-
-    ``first`` is the load at which it does if it is held there.
-    """
-    if found is None:
-        return ""
-    if isinstance(found, str):
-        return f"When it buckles if nothing holds it there was not found: {found}"
-    said = forces_of(case)
-    which = "less" if found.force.value > first.value else "more"
-    text = (
-        f"If nothing holds it there, it is off the wall beside the steps, and buckles sideways at "
-        f"{said.load(found.force, other=True)}, {which} compression than held: "
-        "shapes beyond that load are those of the held string."
-    )
-    beyond = [load for load in case.applied if load.force < found.force.value]
-    if not beyond or found.force.value < first.value:
-        return text
-    return f"{text} Under the most compressive load that acts it has buckled then, whatever is told of it held."
-
-
-def not_held_aside(found: PathPoint | str | None, case: Case) -> str:
-    """The same beside the load of the held string."""
-    if found is None:
-        return ""
-    load = "not known" if isinstance(found, str) else forces_of(case).size(found.force)
-    return f", {load} if nothing holds it there"
 
 
 def _places(steps: list[StepLoad], case: Case | None) -> str:

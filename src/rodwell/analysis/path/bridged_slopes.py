@@ -24,7 +24,6 @@ from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.path.events import CRITICAL
 from rodwell.analysis.path.follow import load_path
-from rodwell.analysis.path.sideways.not_held import buckles_if_not_held
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import softest, stiffness_along
@@ -37,8 +36,6 @@ from rodwell.quantities.value import Value
 STEP = 2e-4
 """Largest step, as a part of what is moved."""
 
-NOT_HELD = "load at which it buckles if nothing holds it at its steps"
-
 Moved = Callable[[float], tuple[Problem, float]]
 """The problem and the end force with a datum moved by a part of its size."""
 
@@ -47,8 +44,7 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
     """Derivatives of the critical load of a mode and, where the rod is pressed to the wall, of its lift-off load.
 
     Where the clearance has steps, of the load at which the string that bridges them buckles sideways:
-    :func:`bridged_slopes`; of a string in a bend besides of that at which it does if nothing holds it at steps of its
-    stiffness.
+    :func:`bridged_slopes`.
 
     Parameters
     ----------
@@ -68,7 +64,7 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
         If a load cannot be computed.
     """
     if not problem.bridges:
-        return (*of_loads(problem, mode, rtol=rtol), *(if_not_held(problem, rtol) if mode == 1 else ()))
+        return of_loads(problem, mode, rtol=rtol)
     if mode != 1:
         raise InputError("mode", mode, "must be 1 where the clearance has steps: the string is followed to its first")
     path = load_path(problem, rtol=rtol)
@@ -77,18 +73,6 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
         raise NotConvergedError(f"no load was found at which the string buckles sideways: {path.ended_because}")
     name, (derivatives, sections) = "load at which it buckles sideways", bridged_slopes(found.state)
     return (Sensitivity(name, problem, found.force.value, derivatives, "", sections, not path.missed),)
-
-
-def if_not_held(problem: Problem, rtol: float = RTOL) -> tuple[Sensitivity, ...]:
-    """Derivatives of the load at which a string in a bend buckles sideways that nothing holds at its steps.
-
-    None of rods that need not be held, and where that load is not known.
-    """
-    found = buckles_if_not_held(problem, rtol)
-    if found is None or isinstance(found, str) or found.state is None:
-        return ()
-    derivatives, sections = bridged_slopes(found.state)
-    return (Sensitivity(NOT_HELD, problem, found.force.value, derivatives, "", sections, found.met),)
 
 
 def bridged_slopes(state: ContactState) -> tuple[Derivatives, tuple[Derivatives, ...]]:

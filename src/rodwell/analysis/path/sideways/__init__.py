@@ -1,1 +1,0 @@
-"""Loads at which strings that are off the wall before they buckle do so, out of their plane."""
