@@ -15,7 +15,17 @@ from click.testing import CliRunner
 from numpy.polynomial import Polynomial
 from scipy.integrate import solve_ivp
 
-from rodwell import Problem, follow, lift_off_curve, load_branch, ramp, save_branch, verify
+from rodwell import (
+    Problem,
+    critical_loads,
+    follow,
+    lift_off_curve,
+    load_branch,
+    ramp,
+    save_branch,
+    sensitivities,
+    verify,
+)
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.ramped import along_ramps
 from rodwell.analysis.straight.ramps import axial_contact
@@ -203,6 +213,24 @@ def test_without_a_slope_it_is_the_uniform_rod() -> None:
     assert plain is not None
     assert lift.force == pytest.approx(plain.force, rel=1e-6)
     assert lift.s == pytest.approx(plain.s, abs=1e-3)
+
+
+def test_derivatives_are_those_of_differences() -> None:
+    of_critical, of_lift_off = sensitivities(WIDENS)
+    assert of_critical.sections == of_lift_off.sections == ()
+
+    def loads(**changes: float) -> np.ndarray:
+        lift = follow(WIDENS.but(**changes)).lift_off
+        assert lift is not None
+        return np.array([critical_loads(WIDENS.but(**changes), 1)[0].force, lift.force])
+
+    for name, step in (("weight", 0.06), ("alpha", 0.06), ("clearance", 1e-5)):
+        here = getattr(WIDENS, name)
+        rates = (loads(**{name: here + step}) - loads(**{name: here - step})) / (2.0 * step)
+        for rate, known in zip(rates, (of_critical, of_lift_off), strict=True):
+            value = known.derivatives[name]
+            assert value.value == pytest.approx(rate, rel=2e-6)
+            assert value.error < 1e-7 * abs(value.value)
 
 
 def test_branches_are_kept_and_curves_followed(tmp_path: Path) -> None:

@@ -36,7 +36,6 @@ from rodwell.numerics.equilibria.error import NUMBER_NOISE
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines import banded
-from rodwell.problem.clearances import refuse_ramps
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Peak, Value
@@ -65,7 +64,6 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
     if lift.kind != LIFT_OFF:
         raise InputError("point", lift.kind, "must be a lift-off")
     solution = lift.solution
-    refuse_ramps(solution.problem, "derivatives of loads")
     by_force, force_error = (np.array(part) for part in pressure_rates(solution, lift.s, "force"))
     out, note = {}, "" if solution.problem.hole is None else OF_THE_BRANCH
     names = PARAMETERS if solution.problem.hole is None else inputs_of(solution.problem)
@@ -80,7 +78,7 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
             several = "lifts off at several places at once: the derivative by α is that towards smaller α"
             note = f"{several}; {OF_THE_BRANCH}" if solution.problem.hole is not None else several
     by_section = []
-    for i in range(len(solution.problem.sections)):
+    for i in range(0 if solution.problem.ramps else len(solution.problem.sections)):
         each = {}
         for name in SECTION_RATIOS:
             rates, errors = (np.array(part) for part in section_pressure_rates(solution, lift.s, i, name))

@@ -9,7 +9,7 @@ import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.starts import at_state
-from rodwell.analysis.discrete.family import IN_CURVED_HOLE, given_in_kernels, in_other_hole
+from rodwell.analysis.discrete.family import IN_CURVED_HOLE, WHERE_CLEARANCE_VARIES, given_in_kernels, in_other_hole
 from rodwell.analysis.discrete.moved_sections import moved_section
 from rodwell.analysis.straight.lying_slopes import beside as changed
 from rodwell.analysis.straight.lying_slopes import step_in
@@ -37,7 +37,8 @@ def pressure_rates(solution: Solution, places: tuple[float, ...], parameter: str
 
     p carries the sign that makes contact negative. In a curved hole λ may also be its curvature, "build".
     """
-    if solution.problem.hole is not None and parameter not in IN_CURVED_HOLE:
+    known = WHERE_CLEARANCE_VARIES if solution.problem.ramps else IN_CURVED_HOLE
+    if (solution.problem.hole is not None or solution.problem.ramps) and parameter not in known:
         return _hole_rates(solution, places, parameter)
     here = solution.value_of(parameter)
     size = 1.0 if parameter in ("alpha", "twist") else abs(here) or 1.0

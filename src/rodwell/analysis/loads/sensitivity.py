@@ -40,6 +40,7 @@ from rodwell.analysis.straight.without_wall import SpatialMode
 from rodwell.errors import checked_whole
 from rodwell.numerics.equilibria.error import NUMBER_NOISE
 from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.problem.clearances import refuse_bridging
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_rtol
@@ -115,8 +116,9 @@ def of_lying_rod(rod: LyingRod) -> tuple[Sensitivity, ...]:
 def of_critical_load(mode: Mode) -> Sensitivity:
     """Derivatives of a critical load, from its mode on both meshes."""
     problem = mode.problem
-    problem.refuse_bridges("derivatives of critical loads")
-    names, by_mode = (PARAMETERS, _by_mode) if problem.hole is None else (inputs_of(problem), _in_curved_hole)
+    refuse_bridging(problem, "derivatives of critical loads")
+    plain = problem.hole is None and not problem.ramps
+    names, by_mode = (PARAMETERS, _by_mode) if plain else (inputs_of(problem), _on_other_wall)
     fine, coarse = (by_mode(mode, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
     scales = {"weight": problem.weight or 1.0, "alpha": 90.0, "clearance": problem.clearance, "build": 1.0}
     derivatives = {}
@@ -135,9 +137,9 @@ def _critical_elsewhere(mode: Mode, problem: Problem) -> float:
 
 
 def _by_sections(mode: Mode) -> tuple[Derivatives, ...]:
-    """Derivatives of a critical load by the data of each section."""
+    """Derivatives of a critical load by the data of each section; none where the clearance varies."""
     problem = mode.problem
-    if not problem.sections:
+    if not problem.sections or problem.ramps:
         return ()
     rod, slopes = problem.rod, section_slopes
     if problem.hole is not None:
@@ -179,7 +181,7 @@ def _by_mode(mode: Mode, space: SplineSpace, coefficients: FloatArray) -> Slopes
     return {name: (load_slope(problem, space, coefficients, *weight_rates(problem, name)), 0.0) for name in PARAMETERS}
 
 
-def _in_curved_hole(mode: Mode, space: SplineSpace, coefficients: FloatArray) -> Slopes:
+def _on_other_wall(mode: Mode, space: SplineSpace, coefficients: FloatArray) -> Slopes:
     problem, out = mode.problem, {}
     for name in inputs_of(problem):
         step, at_limit = step_in(problem, name), getattr(problem, name) == 0.0 and name == "weight"

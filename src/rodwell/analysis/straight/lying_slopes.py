@@ -1,4 +1,4 @@
-"""Derivatives of the critical loads of a rod that lies along a curved hole, by what its problem is made of.
+"""Derivatives of critical loads of a rod along a curved hole, or where the clearance varies, by what its problem has.
 
 The rod lies on θ = 0 whatever the inputs are, so only the second variation K + F G at the mode v changes with them:
 
@@ -31,12 +31,14 @@ STEP = 5e-4
 
 
 def inputs_of(problem: Problem) -> tuple[str, ...]:
-    """Numbers of a problem in a curved hole by which derivatives are told.
+    """Numbers of a problem in a curved hole, or on a wall whose clearance varies, by which derivatives are told.
 
     Not by the inclination and the curvature of an axis that is given by points: they are those of the points.
     """
     if problem.axis:
         return ("weight", "clearance")
+    if problem.ramps:
+        return ("weight", "alpha", "clearance")
     turns = problem.hole is not None and not problem.hole.planar
     return ("weight", "alpha", "clearance", "build", *(("walk",) if turns else ()))
 
