@@ -37,7 +37,7 @@ def inputs_of(problem: Problem) -> tuple[str, ...]:
     """
     if problem.axis:
         return ("weight", "clearance")
-    turns = problem.hole is not None and not problem.hole.planar
+    turns = problem.in_space
     return ("weight", "alpha", "clearance", "build", *(("walk",) if turns else ()))
 
 

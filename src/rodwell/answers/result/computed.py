@@ -250,7 +250,7 @@ def compute(case: Case, progress: Progress | None = None, begun: Callable[[Compu
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
     first_run.begin(case.problem)
-    if problem.hole is not None and not problem.hole.planar:
+    if problem.in_space:
         lying = lying_along(case, tell)
         return Computed(case, CriticalLoads(()), lying.branches, lying.until, lying=lying)
     tell("critical loads", 0.0)
