@@ -143,6 +143,22 @@ def test_elements_end_at_stations_and_are_set_over_by_ends_of_stretches() -> Non
     assert len(sides) > 2
 
 
+def test_a_rod_leaves_the_wall_on_one_side_of_a_station_where_contact_jumps() -> None:
+    """Contact, of which κᵣ″ is a part, comes to nought before the station and is far from it behind."""
+    survey = Survey.of([0.0, 33.3, 66.7, 100.0], [90.7, 92.3, 88.2, 91.9], [37.0, 42.3, 35.8, 41.3])
+    axis = path_of_survey(survey).piece(0.0, 100.0).axis
+    rod = Problem(59.0, clearance=0.0025, axis=axis)
+    lying = lying_rod(rod)
+    station = stations_along(rod)
+    assert lying.end is not None
+    lift = path_of(rod, lying.end.force - 3.0).lift_off
+    assert lift.force.value == pytest.approx(lying.end.force, rel=1e-9)
+    near = station[np.argmin(np.abs(station - lift.s[0]))]
+    before, behind = lift.state.fields(near + np.array([-1e-9, 1e-9]))["contact_pressure"]
+    assert abs(before) < 1e-4
+    assert behind < -10.0
+
+
 def test_the_shortening_may_be_controlled() -> None:
     path = load_path(BUILD.but(walk=0.1), until=5e-4, control="shortening", seeds=1)
     assert path.reached

@@ -26,7 +26,7 @@ import numpy as np
 
 from rodwell.analysis.off_wall.depth import Piece, contact_pieces, least_gaps
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.pattern import Elements, Pattern, pieces_of
+from rodwell.analysis.off_wall.pattern import Elements, Pattern, last_place, pieces_of
 from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIUS, Shape
 from rodwell.numerics.stretches.minima import CLOSER, lowest
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
@@ -266,10 +266,11 @@ def pressure_on(state: PatternedState, elements: IntArray) -> Callable[[FloatArr
     """The contact pressure p on elements in contact (k,) as a function of ξ (k, n), negative in contact."""
     shape = state.solved.shape
     left, right = shape.places[elements, None], shape.places[elements + 1, None]
-    given = shape.chain.given_to(elements)
+    given, last = shape.chain.given_to(elements), last_place(state.problem, left, right)
 
     def pressure(xi: FloatArray) -> FloatArray:
-        return state.model.pressure(left + (right - left) * xi, shape.along(elements, xi)[0], shape.load, given)
+        s = np.minimum(left + (right - left) * xi, last)
+        return state.model.pressure(s, shape.along(elements, xi)[0], shape.load, given)
 
     return pressure
 

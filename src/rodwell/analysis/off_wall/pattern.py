@@ -22,6 +22,9 @@ FINER = 2
 WAVES = 0.55
 """Length of an element, times the wavenumber √|F| of a beam column, in units of half-waves."""
 
+BEFORE = 1e-9
+"""Part of an element that ends at a station, before which the hole is that of its side."""
+
 APART = 0.01
 """Stations of the hole nearer to each other, to a step or to an end of the rod, in L, are left to the elements."""
 
@@ -112,6 +115,11 @@ def _stations(problem: Problem) -> tuple[float, ...]:
             if s - (kept[-1] if kept else 0.0) >= APART and float(np.min(np.abs(steps - s))) >= APART:
                 kept.append(s)
     return tuple(kept)
+
+
+def last_place(problem: Problem, left: FloatArray, right: FloatArray) -> FloatArray | float:
+    """Up to where elements have the hole of their side: at stations, where some end, the contact jumps; or no limit."""
+    return right - BEFORE * (right - left) if problem.hole is not None and _stations(problem) else np.inf
 
 
 def counts(
