@@ -119,6 +119,17 @@ def test_the_branch_of_the_rod_as_it_lies_goes_on_off_the_wall_as_the_path_does(
     assert [one.index_after for one in points] == [0, 1, 1, 1]
 
 
+def test_a_limit_point_on_the_wall_is_not_stepped_over() -> None:
+    """That of the rod kept on the wall; another path is near, on which energies would not be ∫u dF from there."""
+    rod = Problem(123.946, 117.5516, clearance=0.0057, build=0.37181, walk=-0.2187)
+    lying = lying_rod(rod)
+    assert lying.end is not None
+    assert lying.end.kind == "fold"
+    path = path_of(rod, lying.end.force - 20.0)
+    assert [one.kind for one in path.events] == ["fold", "snap"]
+    assert path.events[0].force.value == pytest.approx(lying.end.force, rel=1e-9)
+
+
 def test_nothing_is_told_of_another_path_on_the_way_back() -> None:
     """A gap beside a point of contact closes ahead, not behind, where its pattern also ends."""
     path = there_and_back()
