@@ -161,7 +161,7 @@ REFUSED: list[tuple[dict[str, Any], str, str]] = [
     ({"ends": "ball-clamped"}, "ends", "rodwell.load_path"),
     ({"outside": True, "on_top": True}, "outside", "leave off_wall out"),
     ({"on_top": True}, "on_top", "leave off_wall out"),
-    ({"build": 0.2, "walk": 0.1}, "walk", "lies in a vertical plane"),
+    ({"walk": 0.1, "sections": ((0.5, 1.0, 1.0), (0.5, 0.6, 0.8))}, "walk", "beside sections"),
     ({"sections": ((0.5, 1.0, 1.0), (0.5, 0.5, 1.0))}, "off_wall", "rodwell.load_path"),
     ({"sections": ((0.5, 1.0, 1.0), (0.5, 1.0, 1.0, 2.0))}, "sections", "must have one clearance"),
 ]

@@ -18,9 +18,11 @@ from rodwell.analysis.branch.special import LIFT_OFF
 from rodwell.analysis.state.in_hole import InHole
 from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.result.assessment import BUCKLED, LEFT, PULLED, STRAIGHT
+from rodwell.answers.result.beyond import Beyond, StateBeyond, Step
 from rodwell.answers.words.advice import next_steps, statuses
 from rodwell.answers.words.meaning import sentences
 from rodwell.cli.main import cli
+from rodwell.plots.paths.beyond import pictured
 from rodwell.strength.limits import YIELDS
 from rodwell.strength.section import RodSection
 
@@ -161,7 +163,26 @@ def test_the_whole_folder(tmp_path: Path) -> None:
     assert not {"cylinder.svg", "modes.svg"} & names
     data = json.loads((tmp_path / "out" / "answer.json").read_text(encoding="utf-8"))
     assert data["lying"]["lowest_force"]["followed_because"] == "the rod lifts off"
+    assert "states off the wall" not in data["lying"]["left_out"]
+    assert {"load-path.csv", "load-path.svg", "load-path-3d.html"} <= names
+    beyond = data["beyond_lift_off"]["events"]
+    assert [event["kind"] for event in beyond if event["leg"] == "loading"][:2] == ["lift_off", "gap_opens"]
+    assert beyond[-1]["kind"] == "touch_down"
+    lowest = data["lying"]["lowest_force"]["value"]
+    assert beyond[0]["force"]["value"] == pytest.approx(lowest, rel=1e-8)
+    assert beyond[-1]["force"]["value"] == pytest.approx(lowest, rel=1e-8)
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert "How the rod lies as the load grows" in page
     assert "straight rod" not in page
     assert "does not buckle before it leaves the wall" in page
+    assert "Beyond lift-off" in page
+    assert "what it does beyond that is not given" not in page
+
+
+def test_a_figure_of_what_happens_beyond_lift_off_has_no_two_letters_in_one_place() -> None:
+    """Nothing snaps: on the way back the rod comes by lift-off again."""
+    path = rodwell.load_path(rodwell.Problem(15.0, build=0.2, walk=0.15), until=-370.0, unload_to=-330.0, seeds=1)
+    assert [one.kind for one in path.events] == ["lift_off", "gap_opens", "gap_closes", "touch_down"]
+    steps = tuple(Step(one, StateBeyond(one.leg, one.force, one.state, None)) for one in path.events)
+    shown = pictured(Beyond(path, "", steps))
+    assert [one.load.value for one in shown] == [one.force.value for one in path.events[:2]]

@@ -54,7 +54,7 @@ def test_critical_as_json() -> None:
         (("certify", "--build", "0.2"), "loads are proved of a rod without weight"),
         (("sensitivity", "--build", "0.2", "--walk", "0.1", "--mode", "2"), "no critical load"),
         (("twist", "--build", "0.2"), "in straight holes only"),
-        (("path", "--build", "0.2", "--walk", "0.1", "--until", "-200"), "lies beside the bottom"),
+        (("path", "--walk", "0.1", "--sections", "0.5:1:1,0.5:2", "--until", "-200"), "beside sections"),
         (("path", "--build", "0.2", "--until", "-200", "--wall-stiffness", "1e6"), "whose wall is hard here"),
         (
             ("path", "--build", "0.2", "--sections", "0.5:1,0.5:2/1", "--until", "-200"),
@@ -119,6 +119,23 @@ def test_out_of_the_vertical_plane_and_its_mirror_image() -> None:
     own = data["lift_off_own_places"]
     assert abs(own["value"] - lift["force"]) < 1e-2
     assert own["error"] < 1e-6
+
+
+def test_the_load_path_out_of_the_vertical_plane() -> None:
+    """From the rod as it lies; lift-off is that of `rodwell liftoff`, energies count from what the text says."""
+    given = ("--weight", "15", "--alpha", "80", "--build", "0.2", "--walk", "0.3")
+    lift = json.loads(run("liftoff", *given, "--json")[1])["lift_off"]
+    words = ("path", *given, "--until", "-250", "--at", "-100,-250")
+    code, text = run(*words)
+    assert code == 0
+    assert "buckles" not in text
+    assert "F = −100, loading: on the wall, stable" in text
+    data = json.loads(run(*words, "--json")[1])
+    assert data["reached"]
+    assert data["events"][0]["kind"] == "lift_off"
+    assert data["events"][0]["force"]["value"] == pytest.approx(lift["force"], rel=1e-9)
+    assert [state["kind"] for state in data["states"]] == ["on the wall", "partial contact"]
+    assert all(state["certificate"]["passed"] for state in data["states"])
 
 
 BENT_STRING = ("--weight", "15", "--alpha", "60", "--build", "0.3", "--sections", "0.6:1:1,0.4:0.3:0.5", "--modes", "1")

@@ -62,7 +62,6 @@ def test_a_state_that_was_followed_is_followed_on(engine: Engine) -> None:
         (SHOWN, {"inputs": {"dimensionless.clearance": 0.02}}, "% of the way"),  # it has snapped before
         (SHOWN, {"inputs": {"ends": "clamped-pinned"}}, "ends = "),
         (SHOWN, {"inputs": {"dimensionless.weight": 0.0}}, "weight = "),
-        (SHOWN, {"inputs": {"dimensionless.walk": 0.1}}, "walk = "),
         (SHOWN, {"load": "much"}, "load = 'much': must be a number"),
         (SHOWN | {"inputs": {"dimensionless.weight": 77.0}}, {}, "it is not known any more"),
         (None, {}, "it is not known any more"),

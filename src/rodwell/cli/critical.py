@@ -11,7 +11,7 @@ from rodwell.cli.critical_in_hole import lying_numbers, show_lying, unheld_load
 from rodwell.cli.critical_varying import show_varying, varying_numbers
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
-from rodwell.cli.lying_in_space import critical_in_space, leaves_the_plane
+from rodwell.cli.lying_in_space import critical_in_space
 from rodwell.cli.options import UNIT, check_missed, json_option, make_problem, print_json, problem_options, rtol_option
 from rodwell.quantities.text import error_digit, plain, with_error
 from rodwell.quantities.value import Value
@@ -54,7 +54,7 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
         keep(where, lambda: varying_numbers(varying), quiet=as_json)
         show_varying(varying, modes, as_json)
         return
-    if leaves_the_plane(problem):
+    if problem.in_space:
         critical_in_space(problem, rtol, where, as_json)
         return
     loads = critical_loads(problem, modes, rtol=rtol)

@@ -21,11 +21,6 @@ if TYPE_CHECKING:
     from rodwell.report.folders.numbers import Numbers
 
 
-def leaves_the_plane(problem: Problem) -> bool:
-    """Whether the hole is curved out of the vertical plane: the rod lies on no straight generator."""
-    return problem.hole is not None and not problem.hole.planar
-
-
 def critical_in_space(problem: Problem, rtol: float, where: Keep, as_json: bool) -> None:
     """Print the loads at which the rod, as it lies, loses its stability, and between which forces it lies."""
     lying = _followed(problem, rtol, as_json)

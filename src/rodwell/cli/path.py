@@ -253,11 +253,11 @@ def _range(
         return far, None if back is None else _number("--unload-to", back, case, control)
     if case is None or control != "force":
         raise click.UsageError("Missing option '--until'.")
-    from rodwell.answers.result.beyond import reach  # noqa: PLC0415
+    from rodwell.answers.result.beyond import off_at, reach  # noqa: PLC0415
     from rodwell.answers.result.computed import compute  # noqa: PLC0415
 
     computed = compute(case)
-    if computed.lift_off is None:
+    if off_at(computed) is None:
         raise InputError("--until", None, "must be given: no lift-off was found from which it could be chosen")
     far, start = reach(computed)
     return far, start if back is None else _number("--unload-to", back, case, control)

@@ -111,6 +111,8 @@ def print_path(result: LoadPath, case: Case | None) -> None:
 
 def _rest(result: LoadPath) -> str:
     """The rod that has not buckled, from which energies count."""
+    if result.problem.in_space:
+        return "the undeformed rod along the bottom"
     return "the straight rod" if result.problem.hole is None else "the rod that lies along the hole"
 
 

@@ -8,7 +8,7 @@ import click
 
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
-from rodwell.cli.lying_in_space import leaves_the_plane, lift_off_in_space, only_first_mode
+from rodwell.cli.lying_in_space import lift_off_in_space, only_first_mode
 from rodwell.cli.options import (
     UNIT,
     check_missed,
@@ -52,7 +52,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     where, problem = take_keep(given), make_problem(given)
-    if leaves_the_plane(problem):
+    if problem.in_space:
         only_first_mode(mode, mirror)
         lift_off_in_space(problem, rtol, where, as_json)
         return

@@ -25,8 +25,7 @@ from rodwell.problem.sections import COLUMNS, PLAIN, Section, seen_from_s_1
 class Problem(Refusals):
     """A heavy rod on a cylinder of any inclination.
 
-    Units: bending stiffness B = 1 and rod length L = 1. Forces are in B/L², moments in B/L, lengths in L.
-    Tension is positive.
+    Units: bending stiffness B = 1, rod length L = 1; forces in B/L², moments in B/L, lengths in L. Tension is positive.
 
     Parameters
     ----------
@@ -82,11 +81,10 @@ class Problem(Refusals):
 
     Notes
     -----
-    With both ends clamped they are (B2), (B4), (B7), (B8) of the paper; what an end does not hold is natural. The
-    end force acts at s = 1, the upper end of a cylinder inclined by less than 90°, along the cylinder's axis; the axial
-    resultant is N(s) = F + γ cos α (s − 1), or F − γ cos α ∫ₛ¹ (w/w₀) ds of sections. The end s = 0 bears what is left
-    of it, whatever its condition. In a curved hole the end force acts along the tangent of the rod on the wall at
-    s = 1.
+    Ends that are both clamped are (B2), (B4), (B7), (B8) of the paper; what an end does not hold is natural. The end
+    force acts at s = 1, the upper end of a cylinder inclined by less than 90°, along the cylinder's axis; the axial
+    resultant is N(s) = F + γ cos α (s − 1), or F − γ cos α ∫ₛ¹ (w/w₀) ds of sections. The end s = 0 bears what is left,
+    whatever its condition. In a curved hole the end force acts along the tangent of the rod on the wall at s = 1.
 
     Raises
     ------
@@ -127,6 +125,11 @@ class Problem(Refusals):
         given = self.given_hole
         return given.upside_down if given is not None and self.floats else given
 
+    @property
+    def in_space(self) -> bool:
+        """Whether the hole leaves the vertical plane: no rod lies on a straight generator of it."""
+        return self.hole is not None and not self.hole.planar
+
     @cached_property
     def bridges(self) -> bool:
         """Whether a string leaves the wall: over steps of the clearance, or between sections that sink and float."""
@@ -166,9 +169,8 @@ class Problem(Refusals):
     def symmetric(self) -> bool:
         """Whether the problem is the same seen from either end: equal ends, no axial weight, sections alike.
 
-        A weightless rod without an end that holds y has y(0) fixed instead, which makes the ends unequal. So does
-        weight where the end s = 1 has not come round to the side of the other. An arc is such a hole, level or
-        without weight; where it leaves the vertical plane, only y(s) → y(1 − s) leaves it as it is.
+        Without weight and an end that holds y, y(0) is fixed, and the ends unequal; as where weight finds them on two
+        sides. An arc is such a hole, level or without weight; out of the vertical plane by y(s) → y(1 − s) only.
         """
         loose = self.lateral_weight == 0.0 and not self.holds_angle
         if self.hole is not None:

@@ -152,7 +152,6 @@ def test_where_a_bend_presses_hard_the_rod_is_seen_to_snap() -> None:
 @pytest.mark.parametrize(
     ("changes", "field"),
     [
-        ({"walk": 0.1}, "walk"),
         ({"sections": ((0.5, (1.0, 0.6)), (0.5, 0.6))}, "sections"),
         ({"build": -0.5, "weight": 0.0}, "build"),
         ({"build": -0.5, "twist": 1.0}, "twist"),
@@ -164,10 +163,7 @@ def test_what_has_no_path_is_refused_with_the_reason(changes: dict[str, object],
     assert caught.value.field == field
 
 
-def test_axes_out_of_a_vertical_plane_and_soft_walls_are_refused() -> None:
-    points = [(float(np.sin(u)), 0.1 * u**3, 0.1 * u**2) for u in np.linspace(0.0, 1.0, 9)]
-    with pytest.raises(rodwell.InputError, match="axis"):
-        load_path(Problem(15.0, axis=points), until=-100.0)
+def test_soft_walls_are_refused() -> None:
     with pytest.raises(rodwell.InputError, match="wall_stiffness"):
         load_path(BUILD, until=-100.0, wall_stiffness=1e6)
 

@@ -97,7 +97,6 @@ def test_a_state_that_misses_its_balance_is_not_given(path: rodwell.LoadPath, mo
     [
         (replace(ROD, ends=("clamped", "pinned")), "ends"),
         (replace(ROD, sections=((0.5, 1.0, 1.0), (0.5, 1.0, 2.0))), "sections"),
-        (replace(ROD, walk=0.1), "walk"),
         (replace(ROD, weight=0.0), "weight"),
         (replace(ROD, alpha=0.0), "weight"),
         (replace(ROD, outside=True), "outside"),

@@ -254,7 +254,7 @@ def _check_off_wall(problem: Problem, then: object, search: Sequence[str]) -> No
 
 def _lies(problem: Problem) -> bool:
     """Whether the rod lies along a hole that leaves the vertical plane, where it has no critical loads."""
-    return problem.hole is not None and not problem.hole.planar
+    return problem.in_space
 
 
 def _checked_further(problem: Problem, parameter: Parameter | Along, until: float) -> tuple[Parameter, float]:

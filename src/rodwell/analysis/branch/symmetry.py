@@ -62,7 +62,7 @@ def reflections(problem: Problem) -> tuple[Reflection, ...]:
     turnable = problem.symmetric
     plain = problem.twist == 0.0 and problem.turns == 0
     found = [IDENTITY]
-    if problem.hole is not None and not problem.hole.planar:
+    if problem.in_space:
         return (IDENTITY, TURNED) if plain and turnable else (IDENTITY,)
     if plain:
         found.append(MIRROR)
@@ -82,7 +82,7 @@ def kept_parity(problem: Problem, parity: int, *parameters: Parameter) -> int:
     along = throughout(problem, *parameters)
     if not all(one.symmetric for one in along):
         return 0
-    if parity < 0 and any(one.hole is not None and not one.hole.planar for one in along):
+    if parity < 0 and any(one.in_space for one in along):
         return 0
     return 0 if parity > 0 and any(one.twist != 0.0 for one in along) else parity
 

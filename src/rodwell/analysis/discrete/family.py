@@ -280,7 +280,7 @@ def reflections(problem: Problem, parameter: Parameter = END_FORCE) -> tuple[tup
 def _reflections(problem: Problem) -> tuple[tuple[int, bool], ...]:
     turnable = problem.symmetric
     plain = problem.twist == 0.0 and problem.turns == 0
-    if problem.hole is not None and not problem.hole.planar:
+    if problem.in_space:
         return ((1, True),) if plain and turnable else ()
     found = [MIRROR] if plain else []
     found += [(1, True)] if plain and turnable else []

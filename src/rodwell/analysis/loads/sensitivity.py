@@ -74,7 +74,7 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
         If a load cannot be computed.
     """
     rtol = checked_rtol(rtol)
-    if problem.hole is not None and not problem.hole.planar:
+    if problem.in_space:
         if mode != 1:
             refuse_spatial(problem)
         return of_lying_rod(lying_rod(problem, rtol=rtol))

@@ -29,6 +29,7 @@ from rodwell.analysis.off_wall.conditions import (
     PatternedState,
     conditions,
 )
+from rodwell.analysis.off_wall.pattern import pieces_of
 from rodwell.analysis.off_wall.steps import (
     Plan,
     cross,
@@ -174,7 +175,7 @@ def _open(plan: Plan, condition: Condition) -> None:
     """A gap opens on a stretch in contact: within it, or beside one of its ends."""
     i, s, state = condition.number, condition.s, plan.state
     left, right = state.bounds[i : i + 2]
-    if float(np.min(np.abs(state.model.problem.rod.breaks[1:-1] - s), initial=1.0)) < BESIDE_STEP:
+    if float(np.min(np.abs(pieces_of(state.model.problem)[0] - s), initial=1.0)) < BESIDE_STEP:
         open_at(plan, condition)
         return
     half = min(plan.half, 0.3 * (right - left))

@@ -9,7 +9,7 @@ Where one of them vanishes along a path the pattern of contact changes:
 * at an end that is not radially held a rod in contact does not turn around the wall, since nothing bears the radial
   moment of it: else it leaves it; nor at a step of its stiffness (touching none in a curved hole), a kink that pulls,
 * the rod nowhere reaches the wall within a free stretch: else it touches there,
-* ends of stretches and points of contact keep off steps of a string: else they pass them, and elements with them,
+* ends of stretches and points of contact keep off steps of a string and stations of the hole: else they pass them,
 * the edge of a narrower part of the hole, where the rod touches it, pushes: else the rod leaves it; and so does the
   wall at a loose end of a free stretch that touches it.
 """
@@ -26,7 +26,7 @@ import numpy as np
 
 from rodwell.analysis.off_wall.depth import Piece, contact_pieces, least_gaps
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.pattern import Elements, Pattern
+from rodwell.analysis.off_wall.pattern import Elements, Pattern, last_place, pieces_of
 from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIUS, Shape
 from rodwell.numerics.stretches.minima import CLOSER, lowest
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
@@ -119,10 +119,7 @@ class PatternedState:
 
     @property
     def point_forces(self) -> list[tuple[float, float, str]]:
-        """Places and outward forces of concentrated contact, from s = 0.
-
-        At "end"s of stretches, "point"s, "edge"s, "kink"s of the stiffness, and loose ends of the rod, "tip"s.
-        """
+        """Places and outward forces of contact, from s = 0: "end"s of stretches, "point"s, "edge"s, "kink"s, "tip"s."""
         kinds = ["point" if self.pattern.is_point(i) else "end" for i in range(self.pattern.breaks)]
         found = list(zip(map(float, self.solved.shape.breaks), map(float, self.solved.forces), kinds, strict=True))
         found += [
@@ -172,12 +169,14 @@ def conditions(state: PatternedState) -> tuple[Condition, ...]:
 
 
 def at_steps(state: PatternedState) -> list[Condition]:
-    """What steps of a string ask for: no slope in contact where the stiffness jumps, and no end of a stretch there."""
-    shape, rod, found = state.solved.shape, state.model.problem.rod, []
-    (below, above), section = rod.stiffness_sides, 0
+    """No slope in contact at steps of the stiffness, no end of a stretch where elements end: at steps, at stations."""
+    shape, rod, found = state.solved.shape, state.model.problem.rod, list[Condition]()
+    if all(len(pieces) == 1 for pieces in state.elements):
+        return found
+    (corners, section), (below, above), first_corner = pieces_of(state.problem), rod.stiffness_sides, 0
     for i, pieces in enumerate(state.elements):
-        inner = range(section, section + len(pieces) - 1)
-        for k in inner:
+        inner = range(first_corner, first_corner + len(pieces) - 1)
+        for k in (section[corner] for corner in inner if section[corner] != section[corner + 1]):
             s = float(rod.breaks[1 + k])
             if state.pattern.touching[i] and below[k] != above[k]:
                 held = -np.inf if state.problem.bent else NO_SLOPE - abs(slope_at(shape, s))
@@ -186,11 +185,11 @@ def at_steps(state: PatternedState) -> list[Condition]:
                 length, shortest, _ = kink_gap(state, s)
                 found.append(Condition(UNHELD, 2 + k, shortest - length, s))
         if inner:  # the ends of the stretch, upwards to its first step and downwards to its last
-            first, last = float(rod.breaks[1 + inner.start]), float(rod.breaks[inner.stop])
+            first, last = float(corners[inner.start]), float(corners[inner.stop - 1])
             for number, s, end in ((2 * i - 1, first, state.bounds[i]), (2 * i, last, state.bounds[i + 1])):
                 if 0 <= number < 2 * state.pattern.breaks:
                     found.append(Condition(CROSSES, number, abs(float(end) - s) - BESIDE_STEP, s))
-        section += len(pieces) - 1
+        first_corner += len(pieces) - 1
     return found
 
 
@@ -267,10 +266,11 @@ def pressure_on(state: PatternedState, elements: IntArray) -> Callable[[FloatArr
     """The contact pressure p on elements in contact (k,) as a function of ξ (k, n), negative in contact."""
     shape = state.solved.shape
     left, right = shape.places[elements, None], shape.places[elements + 1, None]
-    given = shape.chain.given_to(elements)
+    given, last = shape.chain.given_to(elements), last_place(state.problem, left, right)
 
     def pressure(xi: FloatArray) -> FloatArray:
-        return state.model.pressure(left + (right - left) * xi, shape.along(elements, xi)[0], shape.load, given)
+        s = np.minimum(left + (right - left) * xi, last)
+        return state.model.pressure(s, shape.along(elements, xi)[0], shape.load, given)
 
     return pressure
 

@@ -108,9 +108,7 @@ class _Walker:
         self._renew_elements()
         state = self.state
         lengths, rates = self._lengths()
-        most = MOST_SHRUNK / max(
-            float(np.max(-rates / lengths)), MOST_SHRUNK / self.largest
-        )  # no stretch is passed over
+        most = MOST_SHRUNK / max(float(np.max(-rates / lengths)), MOST_SHRUNK / self.largest)  # none is passed over
         outcome, solved, steps = step(state.model, state.solved, self.along, min(self.size, most), self.before)
         if solved is None:
             self._shorten(f"{outcome.value}, beyond F = {state.load:.8g} B/L²")
@@ -159,10 +157,8 @@ class _Walker:
             return
         renewed = with_new_elements(self.state)
         if renewed is not None:
-            old, chain = self.along, renewed.solved.shape.chain
-            guide = Motion(np.zeros((chain.elements + 1, 4)), old.breaks, old.load, np.zeros(0))
-            self.state = renewed
-            self.along = tangent(renewed.solved, guide)
+            guide = Motion(np.zeros_like(renewed.solved.shape.nodes), self.along.breaks, self.along.load, np.zeros(0))
+            self.state, self.along = renewed, tangent(renewed.solved, guide)
 
     def _turned(self, event: PathEvent, new: PatternedState, turned: Motion) -> None:
         """At a fold or a change of the index: go on, or end."""
@@ -253,18 +249,22 @@ class _Walker:
         after, condition = found
         along = tangent_in_load(after.state.solved, self.along.load)
         at = search(after.state.model, after.state.solved, along, after.grows, SEARCH, FARTHEST)
-        beyond = at is None or (self.control.value(at) - self.until) * self.sense > 0.0  # not before the end
-        if at is None or beyond or not at.shape.in_order:
+        if at is None or not at.shape.in_order:
             return False
-        there = PatternedState(after.state.pattern, after.state.elements, at)
-        if any(one.value < -NEARLY * max(abs(there.load), 1.0) for one in conditions(there)):
+        new, old = PatternedState(after.state.pattern, after.state.elements, at), self.state.solved
+        there, here = (self.control.value(one) for one in (at, old))
+        behind = condition.kind != UNHELD and (there - here) * self.sense < -NEARLY * abs(here)  # on another path
+        if behind or (there - self.until) * self.sense > 0.0:  # not before the end
             return False
-        at_once = together(there, [condition], 0, strict=False)
-        places = tuple(sorted(one.s for one in at_once))
-        event = PathEvent(after.name, there, places, after.grows, together=at_once, along=along)
+        if self.control.index_at(at) > self.control.index_at(old):
+            return False  # it loses stability before: where it does is found with the stretch
+        if any(one.value < -NEARLY * max(abs(new.load), 1.0) for one in conditions(new)):
+            return False
+        at_once, after = together(new, [condition], 0, strict=False), Changed(new, after.grows, after.name)
+        s = tuple(sorted(one.s for one in at_once))
+        event = PathEvent(after.name, new, s, after.grows, together=at_once, along=along)
         self.result.events += [event] if event.kind else []
-        after = Changed(there, after.grows, after.name)
-        if condition.kind == UNHELD and not kinked(there, condition.s):
+        if condition.kind == UNHELD and not kinked(new, condition.s):
             self._open_again(event, after)
         else:
             self._enter(after)

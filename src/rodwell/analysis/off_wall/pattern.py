@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
 
+from rodwell.analysis.discrete.curved import stations_along
 from rodwell.numerics.stretches.chain import ANGLE, ANGLE_RATE, RADIAL_SLOPE, RADIUS, Chain
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
@@ -19,6 +21,12 @@ FINER = 2
 
 WAVES = 0.55
 """Length of an element, times the wavenumber √|F| of a beam column, in units of half-waves."""
+
+BEFORE = 1e-9
+"""Part of an element that ends at a station, before which the hole is that of its side."""
+
+APART = 0.01
+"""Stations of the hole nearer to each other, to a step or to an end of the rod, in L, are left to the elements."""
 
 Elements = tuple[tuple[int, ...], ...]
 """Numbers of elements of each stretch, in each of the pieces into which steps between sections part it."""
@@ -88,10 +96,30 @@ def end_held(problem: Problem, last: bool, turns: float, radius: float) -> tuple
 
 
 def pieces_of(problem: Problem, fixed: tuple[float, ...] = ()) -> tuple[FloatArray, IntArray]:
-    """Places (n,) at which elements end wherever stretches do, and in which section each piece between them lies."""
+    """Places (n,) at which elements end wherever stretches do, and in which section each piece between them lies.
+
+    At steps of a string, and at stations of the hole, where the second derivative of its curvature jumps.
+    """
     steps = problem.rod.breaks[1:-1]
-    corners = np.union1d(steps, fixed)
+    corners = np.union1d(np.union1d(steps, _stations(problem)), fixed)
     return corners, np.concatenate([[0], np.cumsum(np.isin(corners, steps))]).astype(np.int64)
+
+
+@lru_cache(maxsize=64)
+def _stations(problem: Problem) -> tuple[float, ...]:
+    """Places of stations of the hole along the undeformed rod; of those that are close together one, none by a step."""
+    kept: list[float] = []
+    if problem.hole is not None:
+        steps = problem.rod.breaks
+        for s in map(float, stations_along(problem)):
+            if s - (kept[-1] if kept else 0.0) >= APART and float(np.min(np.abs(steps - s))) >= APART:
+                kept.append(s)
+    return tuple(kept)
+
+
+def last_place(problem: Problem, left: FloatArray, right: FloatArray) -> FloatArray | float:
+    """Up to where elements have the hole of their side: at stations, where some end, the contact jumps; or no limit."""
+    return right - BEFORE * (right - left) if problem.hole is not None and _stations(problem) else np.inf
 
 
 def counts(
@@ -111,11 +139,16 @@ def counts(
 
 
 def chain(
-    problem: Problem, given: FloatArray, pattern: Pattern, elements: Elements, degree: int
+    problem: Problem,
+    given: FloatArray,
+    pattern: Pattern,
+    elements: Elements,
+    degree: int,
+    corners: FloatArray | None = None,
 ) -> tuple[Chain, FloatArray]:
     """Elements for a pattern, and the values of what is held (e+1, 4), NaN elsewhere.
 
-    ``given`` (n, g) is what the model knows of each section.
+    ``given`` (n, g) is what the model knows of each section; ``corners``: in place of those of :func:`pieces_of`.
     """
     sizes = tuple(map(sum, elements))
     total = sum(sizes)
@@ -125,8 +158,8 @@ def chain(
     owner = np.repeat(np.arange(pieces.size), pieces)
     part = ((np.arange(total) - (np.cumsum(pieces) - pieces)[owner]) / pieces[owner])[:, None]
     ends, section_after = pieces_of(problem, pattern.fixed)
-    corners = _corners(ends, elements)
-    places = np.concatenate([corners[owner] * (1.0 - part) + corners[owner + 1] * part, corners[-1:]])
+    bounds = _corners(ends if corners is None else corners, elements)
+    places = np.concatenate([bounds[owner] * (1.0 - part) + bounds[owner + 1] * part, bounds[-1:]])
     # one piece more at each corner that is fixed, not a break
     section = section_after[owner - np.repeat(np.arange(len(elements)), sizes)]
     radii = problem.rod.clearance.coefficients[section, 0]

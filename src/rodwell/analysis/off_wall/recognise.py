@@ -13,7 +13,7 @@ from rodwell.analysis.off_wall.changes import changed
 from rodwell.analysis.off_wall.conditions import LEAVES, PatternedState, conditions
 from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.analysis.off_wall.pattern import Pattern, pieces_of
 from rodwell.numerics.stretches.carry import Sampler, sampler
 from rodwell.numerics.stretches.chain import Shape
 from rodwell.numerics.stretches.descent import descended
@@ -64,7 +64,8 @@ def recognised(model: RodInHole, shape: Shape, control: Control, value: float) -
     for one in STIFFNESSES:
         stiffness = one * firmness
         if one == FINER_FROM:
-            pieces = np.histogram(0.5 * (shape.places[1:] + shape.places[:-1]), model.problem.rod.breaks)[0]
+            ends = np.concatenate([[0.0], pieces_of(model.problem)[0], [1.0]])
+            pieces = np.histogram(0.5 * (shape.places[1:] + shape.places[:-1]), ends)[0]
             shape, _ = arranged(
                 model, Pattern((False,)), np.zeros(0), shape.load, sampler(shape), degree=shape.chain.degree,
                 elements=(tuple(2 * pieces),),

@@ -23,7 +23,7 @@ from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Peak, Value
 
 STRAIGHT, SINUSOIDAL, HELIX, PARTIAL = "straight", "sinusoidal", "helix", "partial contact"
-BRIDGED, OTHER_SIDE = "bridged", "along the other side"
+BRIDGED, OTHER_SIDE, ON_WALL = "bridged", "along the other side", "on the wall"
 
 MOST_DEGREES = 8
 """By how much the degree of the elements may be raised for a certificate that passes."""
@@ -38,8 +38,8 @@ def kind_of(state: PatternedState, turns: int) -> str:
         return HELIX
     if state.pattern.planar and state.problem.leaves_wall:
         return BRIDGED
-    if not state.everywhere:
-        return PARTIAL
+    if not state.everywhere or state.problem.in_space:  # there at angles that vary along it, buckled or not
+        return ON_WALL if state.everywhere else PARTIAL
     angles = state.solved.shape.nodes[:, 1]
     if state.problem.hole is not None and float(np.ptp(angles)) < FLAT <= float(np.max(np.abs(angles))):
         return OTHER_SIDE
@@ -129,7 +129,8 @@ class ContactState:
         """What the state is: "straight", "sinusoidal", "helix" (around the hole), "partial contact" or "bridged".
 
         Bridged is one in the vertical plane, over steps of the clearance. Of a curved hole "straight" is the rod that
-        lies along it, and "along the other side" one that does so elsewhere around the hole.
+        lies along it, "along the other side" one that does so elsewhere; where that leaves the vertical plane any in
+        contact everywhere without a turn is "on the wall".
         """
         return kind_of(self.fine, self.turns)
 
@@ -145,7 +146,7 @@ class ContactState:
 
     @cached_property
     def energy(self) -> Value:
-        """Energy relative to the straight rod at the same load, in B/L."""
+        """Energy relative to the straight rod, in curved holes the undeformed one at the bottom; in B/L."""
         return self._value("energy")
 
     @cached_property

@@ -28,6 +28,10 @@ MOST_EARLIER = 6
 """How often within a step something is found that happens before what was found first."""
 
 
+SLACK, ROUND_OFF = 1.0, 1e-7
+"""By how much of the change of ∂E/∂F energies at the ends of a step may differ from the mean of both; half of it where
+∂E/∂F changes one way. And what round-off may add, as a part of the energy."""
+
 AT_ONCE = 1e-6
 """Part of a step within which two things happen in the same place."""
 
@@ -50,6 +54,8 @@ class Step:
 
 def first_event(step: Step) -> PathEvent | str | None:
     """The first thing that happens within a step, located; in words why not, where the step is too long for that."""
+    if step.state.problem.in_space and _on_another_path(step):
+        return f"another path is met beyond F = {step.state.load:.8g} B/L²"
     event = None
     for _ in range(MOST_EARLIER):
         found = _located(step)
@@ -60,6 +66,20 @@ def first_event(step: Step) -> PathEvent | str | None:
             return event
         step = replace(step, new=event.state, turned=tangent(event.state.solved, step.along))
     return f"contact changes too often beyond F = {step.state.load:.8g} B/L²"
+
+
+def _on_another_path(step: Step) -> bool:
+    """Whether a step has led to another path, past a limit point of its own.
+
+    Along one path energies differ by ∫u dF, with u = ∂E/∂F at the ends of a step as its bounds, unless the load turns.
+    """
+    first, last = step.state.solved, step.new.solved
+    if not step.control.by_force or step.along.load * step.turned.load <= 0.0:
+        return False
+    far, (before, after) = last.shape.load - first.shape.load, (one.out.energy_by_load for one in (first, last))
+    missed = last.out.energy - first.out.energy - 0.5 * (before + after) * far
+    noise = ROUND_OFF * max(abs(first.out.energy), abs(last.out.energy), 1.0)
+    return abs(missed) > SLACK * abs((after - before) * far) + noise
 
 
 def _located(step: Step) -> PathEvent | str | None:

@@ -8,6 +8,7 @@ from rodwell.analysis.off_wall.control import FORCE, NAMES, Control, shortening
 from rodwell.analysis.off_wall.curved.refused import refuse_holes
 from rodwell.analysis.straight.lying import lies_between
 from rodwell.errors import InputError, checked_number
+from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
 from rodwell.problem.sections import refuse_sections
 from rodwell.problem.words import where_it_bridges
@@ -48,6 +49,12 @@ def checked_problem(problem: Problem) -> None:
             else "the path of a rod on top is refused"
         )
         raise InputError("on_top", True, f"{why}: its path begins at the bottom")
+    if problem.in_space and set(problem.ends) & set(OFF_WALL_ENDS):
+        raise InputError(
+            "ends", "-".join(problem.ends), "a ball joint or loose end is off the wall from the first in a hole that "
+            "leaves the vertical plane, and a path begins there with a rod that lies on it: take clamped, pinned, "
+            "guided or free",
+        )  # fmt: skip
     if problem.turns:
         raise InputError("turns", problem.turns, "a load path begins with the straight rod: leave turns at 0")
     if problem.lateral_weight == 0.0 and problem.twist:
@@ -151,6 +158,20 @@ def checked_range(control: Control, until: float, unload_to: float | None) -> tu
         if unload_to >= until:
             raise InputError("unload_to", unload_to, f"must be below until, {until:g} L: less shortening")
     return until, unload_to
+
+
+def check_in_space(mirror: bool, control: Control, unload_to: float | None) -> None:
+    """Raise for what a path in a hole that leaves the vertical plane does not take, with the reason."""
+    if mirror:
+        raise InputError(
+            "mirror", mirror, "must be left out where the hole leaves the vertical plane: the rod does not buckle "
+            "to either side of a straight shape",
+        )  # fmt: skip
+    if control.by_force and unload_to is not None and unload_to > 0.0:
+        raise InputError(
+            "unload_to", unload_to, "must be at most 0 in a hole that leaves the vertical plane; how the rod lies in "
+            "tension: rodwell.lying_rod",
+        )  # fmt: skip
 
 
 def check_tension(problem: Problem, control: Control, **ends: float | None) -> None:

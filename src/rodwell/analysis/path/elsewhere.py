@@ -20,11 +20,13 @@ from rodwell.analysis.off_wall.certificate import LIMIT
 from rodwell.analysis.off_wall.changes import changed
 from rodwell.analysis.off_wall.conditions import LEAVES, UNHELD, Condition, PatternedState, conditions, watched
 from rodwell.analysis.off_wall.happening import together
+from rodwell.analysis.off_wall.pattern import pieces_of
 from rodwell.analysis.off_wall.soft import stopped
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.off_wall.vanishing import about_to_vanish, shortened
 from rodwell.analysis.path.between import Way, check_alike
 from rodwell.analysis.path.checks import checked_problem
+from rodwell.analysis.path.plane import freed
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.walk import between, length, zero_within
@@ -89,7 +91,12 @@ def follow_contact(
         raise InputError("start", f"stability index {start.stability_index}", "must be a stable state: index 0")
     end = start.force if force is None else checked_force("force", force)
     way = Way(start.problem, problem, start.force, end, start.fine.model.stiffness)
-    return _Mover(way, start.coarse, progress or (lambda _: None)).moved()
+    state: PatternedState | None = start.coarse
+    if start.coarse.pattern.planar and problem.in_space:
+        state = freed(start.coarse)
+    if state is None:
+        raise NotConvergedError("the state in the vertical plane was not found as one that may leave it")
+    return _Mover(way, state, progress or (lambda _: None)).moved()
 
 
 @dataclass(eq=False)
@@ -135,10 +142,12 @@ class _Mover:
 
     def _at(self, state: PatternedState, part: float) -> PatternedState | None:
         """The state of the same pattern at a part of the way; None if there is none near."""
-        shape = state.solved.shape
+        shape, model = state.solved.shape, self.way.model(part)
+        corners = sum(len(pieces) - 1 for pieces in state.elements)
+        alike = corners == pieces_of(model.problem, state.pattern.fixed)[0].size  # stations may have come together
         found = solved(
-            self.way.model(part), state.pattern, shape.breaks, self.way.load(part), sampler(shape),
-            degree=shape.chain.degree, elements=state.elements,
+            model, state.pattern, shape.breaks, self.way.load(part), sampler(shape),
+            degree=shape.chain.degree, elements=state.elements if alike else None,
         )  # fmt: skip
         if found is None or not found.solved.shape.in_order:
             return None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rodwell.analysis.beyond.between import around, nearest_first
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.control import FORCE, Control
-from rodwell.analysis.off_wall.state import BRIDGED, OTHER_SIDE, STRAIGHT, ContactState
+from rodwell.analysis.off_wall.state import BRIDGED, ON_WALL, OTHER_SIDE, STRAIGHT, ContactState
 from rodwell.errors import NotConvergedError
 from rodwell.faces import drawn_in_space
 from rodwell.problem.words import floats_in_part
@@ -59,7 +59,7 @@ def unbuckled(curved: bool) -> str:
     return "where it lies along the hole" if curved else "the straight shape"
 
 
-_ARTICLE = {"sinusoidal": "a ", "helix": "a ", OTHER_SIDE: "the shape "}
+_ARTICLE = {"sinusoidal": "a ", "helix": "a ", OTHER_SIDE: "the shape ", ON_WALL: "a shape "}
 
 
 @dataclass(frozen=True)

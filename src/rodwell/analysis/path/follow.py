@@ -11,6 +11,7 @@ from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.path.bridged import bridging, farthest
 from rodwell.analysis.path.checks import (
+    check_in_space,
     check_tension,
     checked_bridging,
     checked_control,
@@ -94,14 +95,17 @@ def load_path(
     state without that. A rod in a drop may leave the wall before it buckles: then the path goes on in the vertical
     plane, up to where a disturbance out of it grows. A string of sections is bent by the hole, the stiffer ones by a
     larger moment: it is off the wall beside its steps, and is followed as one that bridges steps of its clearance,
-    which it may have too.
+    which it may have too. Where the hole leaves the vertical plane (``problem.walk``, ``problem.axis``) the rod is
+    nowhere straight and has no critical load: the path begins with the rod as it lies on the wall without an end force
+    (:func:`rodwell.lying_rod`; where it does not, at rest). Energy and shortening still count from the undeformed rod
+    along the low side, which is no equilibrium there.
 
     Raises
     ------
     InputError
-        For a rod outside the cylinder or on top of it, for loads out of range or order, and for a curved hole along an
-        axis, out of the vertical plane, of a string that tapers, with a soft wall, or in which the rod lies only in
-        tension.
+        For a rod outside the cylinder or on top of it, for loads out of range or order. In a curved hole for a soft
+        wall, for a string along an axis, out of the vertical plane or that tapers, for a rod that lies in its vertical
+        plane only in tension; out of that plane for ball joints and loose ends.
     NotConvergedError
         If the straight rod's critical load, or the path's first state, could not be computed.
     """
@@ -116,7 +120,9 @@ def load_path(
             raise InputError("until", None, "is missing: give the end force to which the rod is loaded")
         until = farthest(problem)
     until, unload_to = checked_range(way, until, unload_to)
-    if not bridges:
+    if problem.in_space:
+        check_in_space(mirror, way, unload_to)
+    elif not bridges:
         check_tension(problem, way, until=until, unload_to=unload_to)
     seeds = checked_whole("seeds", seeds, 1, 100)
 
@@ -127,8 +133,9 @@ def load_path(
         walks = [bridging(model, until, rtol, told(LOADING))]
     else:
         first_run.begin(problem)
-        mode = critical_loads(problem, 1, rtol=rtol)[0]
-        walks = [loaded(model, until, mirror, How(way, rtol, seeds, mode, told(LOADING)))]
+        mode = None if problem.in_space else critical_loads(problem, 1, rtol=rtol)[0]
+        how = How(way, rtol, seeds, mode, told(LOADING))
+        walks = [loaded(model, until, mirror, how)]
         if walks[0].ended == END and unload_to is not None:
             how = How(way, rtol, seeds, mode, told(UNLOADING))
             walks.append(walked(walks[0].last, model, until, unload_to, Leg(UNLOADING), how))

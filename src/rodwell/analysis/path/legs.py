@@ -69,7 +69,7 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
         path = followed(out.last, target, control=how.control, progress=how.progress)
         path = without_jump(path, target, sense, how)
         if _came_to_rest(out, path, how):
-            begin = how.control.of_straight(how.mode.force)
+            begin = how.control.of_straight(how.buckling.value)
             continue
         leg.runs.append(path.states)
         out.last = path.last
@@ -89,11 +89,11 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
 
 def _along_straight(out: Walked, model: RodInHole, begin: float, target: float, sense: float, how: How) -> float:
     """Keep the rod straight as far as it is; return where it buckles."""
-    control, critical = how.control, Value(how.mode.force, how.mode.error)
+    control, critical = how.control, how.buckling
     first, last, buckles = (
         control.straight_load(begin),
         control.straight_load(target),
-        control.of_straight(how.mode.force),
+        control.of_straight(how.buckling.value),
     )
     if (sense > 0.0) == control.by_force or (target - buckles) * sense <= 0.0:
         if first is not None and last is not None:
@@ -121,7 +121,7 @@ def _came_to_rest(out: Walked, path: Followed, how: How) -> bool:
     path.events = [event for event in path.events if event.state in path.states]
     out.leg.runs.append(path.states)
     _tell(out, path, how)
-    out.events.append(PathPoint(CRITICAL, Value(how.mode.force, how.mode.error), (), out.leg.name))
+    out.events.append(PathPoint(CRITICAL, how.buckling, (), out.leg.name))
     out.last = None
     return True
 
@@ -167,7 +167,7 @@ def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
     """What follows where a state ceases to exist, or to be stable."""
     last = path.last
     if straightens(last, how):
-        critical = Value(how.mode.force, how.mode.error)
+        critical = how.buckling
         out.events.append(PathPoint(CRITICAL, critical, (), out.leg.name))
         out.last = None
         return

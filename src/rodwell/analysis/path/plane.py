@@ -39,6 +39,12 @@ def out_of_plane(state: PatternedState) -> PatternedState | None:
     return None if found is None else with_new_elements(PatternedState(pattern, state.elements, found))
 
 
+def freed(state: PatternedState) -> PatternedState | None:
+    """A stable state in the plane as one that may leave it; None if it was not found."""
+    shape, pattern = state.solved.shape, replace(state.pattern, planar=False)
+    return solved(state.model, pattern, shape.breaks, shape.load, sampler(shape), degree=shape.chain.degree)
+
+
 def displaced(state: PatternedState, links: Chain, aside: float) -> Solved | None:
     """The equilibrium, at a load that is found, of a state displaced by so much, in Δ, where it is softest.
 
@@ -58,7 +64,7 @@ def back_in_plane(state: PatternedState, sense: float) -> PatternedState | None:
     problem, shape = state.model.problem, state.solved.shape
     aside = float(np.max(np.abs(shape.cartesian[:, 1])))
     arched, sunk = problem.untouched and problem.isotropic_ends, state.model.soft and problem.twist == 0.0
-    bent = problem.hole is not None and problem.twist == 0.0
+    bent = problem.hole is not None and problem.hole.planar and problem.twist == 0.0
     if not (arched or sunk or bent) or state.pattern.planar or aside > IN_PLANE:
         return None
     load = state.load + sense * FARTHER * abs(state.load)

@@ -22,6 +22,7 @@ from rodwell.numerics.stretches.carry import rim_fields
 from rodwell.numerics.stretches.newton import Solved
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Value
 
 FLAT = 0.05
 """Largest angle around the hole, in radians, below which a state that loses stability is about to be straight."""
@@ -42,13 +43,22 @@ SHORT_STEP = 5e-3
 
 @dataclass(frozen=True)
 class How:
-    """How a path is followed: what is controlled, tolerance, seeds of disturbances, buckling mode, who is told."""
+    """How a path is followed: what is controlled, tolerance, seeds of disturbances, buckling mode, who is told.
+
+    There is no buckling mode where the hole leaves the vertical plane, in which no rod is straight.
+    """
 
     control: Control
     rtol: float
     seeds: int
-    mode: Mode
+    mode: Mode | None
     progress: Callable[[float], str | None] | None = None
+
+    @property
+    def buckling(self) -> Value:
+        """The load at which the straight rod buckles; where the hole leaves the vertical plane there is none."""
+        assert self.mode is not None
+        return Value(self.mode.force, self.mode.error)
 
     def tell(self, state: PatternedState) -> None:
         """Say that the path is still at a state: who is told may end it by what it raises."""
@@ -105,6 +115,8 @@ def leaves_lying(problem: Problem, buckling: float) -> bool:
 
 def first_still(path: Followed) -> int | None:
     """The number of the first state of a path that is straight, if it began bent."""
+    if path.states[0].problem.in_space:
+        return None
     bent = [not (flat(state, STILL) or settles(state)) for state in path.states]
     return bent.index(False) if bent[0] and not all(bent) else None
 
@@ -119,7 +131,7 @@ def without_jump(path: Followed, target: float, sense: float, how: How) -> Follo
     first = first_still(path)
     if first is None:
         return path
-    past = (path.states[first - 1].load - how.mode.force) * load_sense > 0.0
+    past = (path.states[first - 1].load - how.buckling.value) * load_sense > 0.0
     before = path.states[first - 1]
     if not past and (flat(before) or (before.pattern.planar and not any(before.touching))):  # an arch
         return path
@@ -133,6 +145,8 @@ def without_jump(path: Followed, target: float, sense: float, how: How) -> Follo
 def flat(state: PatternedState, angle: float = FLAT) -> bool:
     """Whether the rod lies within an angle around the hole in contact, or no farther from its ends' place, in Δ."""
     shape, pattern = state.solved.shape, state.pattern
+    if state.problem.in_space:
+        return False  # no rod is straight there
     if state.model.soft and state.problem.lateral_weight > 0.0:
         return False  # it has sunk into the wall: states of its own, which are followed
     if pattern.planar and state.problem.hole is not None:
@@ -155,4 +169,7 @@ def settles(state: PatternedState) -> bool:
 
 def straightens(state: PatternedState, how: How) -> bool:
     """Whether a path that ends here meets the straight rod, at its buckling load; a fold nearby is another one's."""
-    return flat(state) and abs(state.load - how.mode.force) <= AT_BUCKLING * abs(how.mode.force)
+    if not flat(state):
+        return False
+    buckling = how.buckling.value
+    return abs(state.load - buckling) <= AT_BUCKLING * abs(buckling)

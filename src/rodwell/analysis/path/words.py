@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rodwell.analysis.off_wall.state import OTHER_SIDE
+from rodwell.analysis.off_wall.state import ON_WALL, OTHER_SIDE
 from rodwell.analysis.path.events import (
     BRANCH_POINT,
     CRITICAL,
     ENTERS,
+    LEAVES,
     LIFT_OFF,
     LOADING,
     SNAP,
@@ -41,7 +42,7 @@ def is_gradual(problem: Problem, event: PathPoint) -> bool:
     It does where nothing presses it to the wall; and in a curved hole, where it may cross to the other side.
     """
     if problem.hole is not None:
-        return event.kind == TOUCHES or (event.kind == BRANCH_POINT and event.plane != "")
+        return event.kind == TOUCHES or (event.kind == BRANCH_POINT and (event.plane != "" or problem.in_space))
     return problem.untouched and event.kind in (TOUCHES, TOUCH_DOWN, *([BRANCH_POINT] * problem.isotropic_ends))
 
 
@@ -50,8 +51,11 @@ def gradually(event: PathPoint, load: str) -> str:
     if event.kind == TOUCHES:
         return f"touches the wall anew at {load}"
     if event.kind == BRANCH_POINT and event.curved:
-        goes = f"lies in the vertical plane from {load} on" if event.plane == ENTERS else f"leaves that plane at {load}"
-        return f"{goes}, without a jump"
+        goes = {
+            ENTERS: f"lies in the vertical plane from {load} on", LEAVES: f"leaves that plane at {load}",
+            "": f"goes over to another shape at {load}",
+        }  # fmt: skip
+        return f"{goes[event.plane]}, without a jump"
     if event.kind == BRANCH_POINT:
         return f"{'leaves' if event.leg == LOADING else 'is back in'} the plane of its arch at {load}, without a jump"
     turns = 0 if event.state is None else abs(event.state.turns)
@@ -75,4 +79,7 @@ def _clause(event: PathPoint) -> str:
     return f"snaps at {load} B/L² to {_NAMES.get(event.to.kind, 'another state of partial contact')}{turns}"
 
 
-_NAMES = {"helix": "a helix", "sinusoidal": "a sinusoidal shape on the wall", OTHER_SIDE: f"the shape {OTHER_SIDE}"}
+_NAMES = {
+    "helix": "a helix", "sinusoidal": "a sinusoidal shape on the wall", OTHER_SIDE: f"the shape {OTHER_SIDE}",
+    ON_WALL: f"a shape {ON_WALL}",
+}  # fmt: skip

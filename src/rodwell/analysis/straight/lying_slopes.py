@@ -39,7 +39,7 @@ def inputs_of(problem: Problem) -> tuple[str, ...]:
         return ("weight", "clearance")
     if problem.ramps:
         return ("weight", "alpha", "clearance")
-    turns = problem.hole is not None and not problem.hole.planar
+    turns = problem.in_space
     return ("weight", "alpha", "clearance", "build", *(("walk",) if turns else ()))
 
 

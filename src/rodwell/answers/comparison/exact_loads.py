@@ -127,7 +127,7 @@ def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[ExactLoad, 
     NotConvergedError
         If the first of these loads cannot be computed.
     """
-    if problem.hole is not None and not problem.hole.planar:
+    if problem.in_space:
         return tuple(_as_it_lies(problem, rtol)), AS_IT_LIES
     loads, notes = [critical(problem, rtol)], []
     if problem.hole is None and (problem.alpha == 0.0 or problem.weight == 0.0 or not problem.pressed):

@@ -140,8 +140,8 @@ def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, s
     case = computed.case
     if not in_such_a_hole(case.problem):
         return None, (
-            "states off the wall of a curved hole are computed of a uniform rod in a hole that stays in a vertical "
-            "plane; `rodwell path` has a string of sections in one curvature (build) until it buckles"
+            "states off the wall of a curved hole are computed of a uniform rod; `rodwell path` has a string of "
+            "sections in one curvature (build) until it buckles"
         )
     left = computed.left_before
     if left is not None and left.value >= 0.0:
@@ -167,22 +167,27 @@ def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, s
 def off_at(computed: Computed) -> float | None:
     """End force at s = 1 in B/L² at which the rod leaves the wall: at lift-off, or of a curved hole before it buckles.
 
-    None where neither was found. Of a rod that the curve presses off the wall at no load there is no path.
+    In one that leaves the vertical plane also where it loses its stability as it lies. None where nothing of this was
+    found. Of a rod that the curve presses off the wall at no load there is no path.
     """
     if computed.lift_off is not None:
         return computed.lift_off.force
-    left = computed.left_before
-    return left.value if left is not None and followed_from(computed.case.problem, left) else None
+    left = None if computed.left_before is None else computed.left_before.value
+    if computed.lying is not None and computed.lying.end is not None:
+        left = computed.lying.lowest.value
+    return left if left is not None and followed_from(computed.case.problem, left) else None
 
 
 def reach(computed: Computed) -> tuple[float, float]:
-    """End forces at s = 1 in B/L² to which the rod is loaded, and unloaded."""
+    """End forces at s = 1 in B/L² to which the rod is loaded, and unloaded; where it is nowhere straight, to none."""
     case, lift = computed.case, off_at(computed)
     assert lift is not None
     half = -case.problem.axial_weight * float(case.problem.rod.lever(np.array([0.5]))[0])
     asked = [load.force for load in case.applied] + ([] if case.until is None else [case.until])
     reach = REACH_ARCHED if case.problem.untouched else REACH
     until = min([half - reach * (half - lift), *asked])
+    if computed.lying is not None:
+        return until, 0.0
     back = half - BACK * (half - computed.buckling.value)
     return until, max(back, computed.buckling.value)
 

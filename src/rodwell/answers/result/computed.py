@@ -252,7 +252,7 @@ def compute(case: Case, progress: Progress | None = None, begun: Callable[[Compu
     problem = case.problem
     refuse_ramps(problem, "answers with all that `rodwell run` has of a uniform rod, and studies,")
     first_run.begin(case.problem)
-    if problem.hole is not None and not problem.hole.planar:
+    if problem.in_space:
         lying = lying_along(case, tell)
         return Computed(case, CriticalLoads(()), lying.branches, lying.until, lying=lying)
     tell("critical loads", 0.0)

@@ -94,6 +94,10 @@ def lying_numbers(lying: LyingRod) -> list[KeyNumber]:
     return out
 
 
-def followed_from(problem: Problem, left: Peak) -> bool:
-    """Whether a load path follows a rod that leaves the wall of its hole before it buckles, at this end force."""
-    return in_such_a_hole(problem) and not problem.on_top and problem.twist == 0.0 and left.value < 0.0
+def followed_from(problem: Problem, force: float) -> bool:
+    """Whether a load path follows a rod that leaves the wall of its hole before it buckles, at this end force.
+
+    Or, where the hole leaves the vertical plane, one that loses its stability there.
+    """
+    pushed = force < 0.0 and not problem.on_top and in_such_a_hole(problem)
+    return pushed and (problem.in_space or problem.twist == 0.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from rodwell.analysis.off_wall.state import HELIX, OTHER_SIDE, PARTIAL, STRAIGHT
+from rodwell.analysis.off_wall.state import HELIX, ON_WALL, OTHER_SIDE, PARTIAL, STRAIGHT
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, TOUCHES, UNLOADING, PathPoint, unbuckled
 from rodwell.analysis.path.load_path import ASSUMPTIONS, HARD
 from rodwell.analysis.path.words import gradually, is_gradual
@@ -93,7 +93,7 @@ def _named(snap: PathPoint) -> str:
     turns = f" of {count} turn{'s' if count != 1 else ''}" if count else ""
     names = {
         HELIX: "a helix", STRAIGHT: unbuckled(snap.curved), PARTIAL: "another state of partial contact",
-        OTHER_SIDE: f"the shape {OTHER_SIDE}",
+        OTHER_SIDE: f"the shape {OTHER_SIDE}", ON_WALL: f"a shape {ON_WALL}",
     }  # fmt: skip
     return f"{names.get(snap.to.kind, 'a sinusoidal shape on the wall')}{turns}"
 

@@ -10,6 +10,7 @@ from rodwell.analysis.branch.special import LIFT_OFF, SpecialPoint
 from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.state.fields import fields_at
 from rodwell.answers.result.assessment import Assessment
+from rodwell.answers.result.lying import followed_from
 from rodwell.answers.words.steps import IF_HELD, held
 from rodwell.answers.words.wording import around_text, forces_of, place_text, places_text, size_text
 from rodwell.case.case import Case
@@ -19,7 +20,7 @@ from rodwell.strength.loaded import LoadedRod
 ROUND = 2.0 * math.pi
 """Added to angles, which then are positive."""
 
-GIVES_WAY = "there it loses its stability and takes another shape, not given here"
+GIVES_WAY = "there it loses its stability and takes another shape"
 
 
 NOT_GIVEN = ": what it does beyond that is not given"
@@ -60,9 +61,10 @@ def lies_until(a: Assessment, lying: LyingRod) -> str:
         return f"{text}, and was followed no farther{_why(lying)}"
     if lying.buckled is not None:
         return f"{text}; there it buckles"
+    followed = followed_from(a.case.problem, load.value)
     if end.kind == LIFT_OFF:
-        return f"{text}; there it leaves the wall at {_where(a.case, end)}{NOT_GIVEN}"
-    return f"{text}; {GIVES_WAY}"
+        return f"{text}; there it leaves the wall at {_where(a.case, end)}{'' if followed else NOT_GIVEN}"
+    return f"{text}; {GIVES_WAY}{'' if followed else ', not given here'}"
 
 
 def _why(lying: LyingRod) -> str:

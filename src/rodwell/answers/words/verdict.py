@@ -97,7 +97,7 @@ def _range_in_curved_hole(a: Assessment) -> str:
     text += said.other(load)
     if left is None:
         return text
-    return f"{text}; there it leaves {_side(a, left.s)}{'' if followed_from(a.case.problem, left) else NOT_GIVEN}"
+    return f"{text}; there it leaves {_side(a, left.s)}{'' if followed_from(a.case.problem, left.value) else NOT_GIVEN}"
 
 
 def _side(a: Assessment, s: float) -> str:

@@ -50,11 +50,13 @@ def plot_beyond(case: Case, found: Beyond) -> Figure:
 def pictured(found: Beyond) -> list[StateBeyond]:
     """Lift-off, and around each snap the state just before it and that after it, unless that is the straight rod.
 
-    Of a rod that nothing presses to the wall, what happens without a jump as the load grows.
+    Of a rod that nothing presses to the wall, what happens without a jump as the load grows. Where nothing snaps,
+    lift-off and the last change of contact as the load grows: on the way back the rod comes by there again.
     """
     chosen: list[StateBeyond] = []
     last: StateBeyond | None = None
-    for one in found.events:
+    snaps = any(one.event.kind == SNAP for one in found.events)
+    for one in found.events if snaps else [one for one in found.events if one.event.leg == LOADING]:
         if one.event.kind == SNAP and not one.before and last is not None and last not in chosen:
             chosen.append(last)
         there = one.state

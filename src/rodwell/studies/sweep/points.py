@@ -143,7 +143,7 @@ class SharedResults:
 
 def computed(case: Case) -> SharedResults:
     """Critical load and first branch of a case; what goes wrong is told in ``why``."""
-    if case.problem.hole is not None and not case.problem.hole.planar:
+    if case.problem.in_space:
         try:
             return SharedResults(None, lying=lying_along(case))
         except (InputError, NotConvergedError) as error:

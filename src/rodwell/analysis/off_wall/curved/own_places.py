@@ -25,8 +25,10 @@ from rodwell.analysis.discrete.curved import (
 from rodwell.analysis.discrete.pieces import PiecewisePolynomial
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.curved.model import STEP, RodOffCurvedWall
+from rodwell.analysis.off_wall.pattern import chain, pieces_of
 from rodwell.numerics.stretches.bordered import Row, fixed_load
 from rodwell.numerics.stretches.carry import fields_at
+from rodwell.numerics.stretches.chain import Shape
 from rodwell.numerics.stretches.newton import solve
 from rodwell.numerics.stretches.walk import row_of, tangent_in_load
 from rodwell.physics.off_wall._curved_density import curved_hole_density
@@ -46,6 +48,9 @@ places settle by the product of curvature and shortening a round."""
 
 PIECES = 64
 """Pieces of the rod, at least, in each of which the hole is a polynomial."""
+
+CLOSER = 4
+"""Steps of Newton's method to the place of a station."""
 
 APART = 1e-6
 """Ends of pieces nearer to each other, in L, make no piece."""
@@ -171,7 +176,7 @@ def _settled(state: PatternedState, row: Row) -> PatternedState | None:
     for _ in range(MOST_ROUNDS):
         assert isinstance(state.model, RodOffCurvedWall)
         model = replace(state.model, along=_tables_of(found))
-        solved = solve(model, found.solved.shape, row)[1]
+        solved = solve(model, _at_stations(found), row)[1]
         if solved is None or not solved.shape.in_order:
             return None
         before, change = change, float(np.max(np.abs(solved.shape.nodes - found.solved.shape.nodes)))
@@ -180,6 +185,23 @@ def _settled(state: PatternedState, row: Row) -> PatternedState | None:
         if small or STALLED * before <= change <= ROUND_OFF:
             return found
     return None
+
+
+def _at_stations(state: PatternedState) -> Shape:
+    """The shape of a state on elements that end where the stations of the hole are beside it."""
+    problem, shape = state.problem, state.solved.shape
+    corners, section = pieces_of(problem)
+    stations = np.diff(section) == 0
+    if not stations.any():
+        return shape
+    place, s = places_along(state), corners[stations]
+    there = undeformed_place(problem, s)
+    for _ in range(CLOSER):
+        s = s + (there - place(s)) / step_along(state, s)[0]
+    corners = corners.copy()
+    corners[stations] = s
+    links, _ = chain(problem, state.model.given, state.pattern, state.elements, shape.chain.degree, corners)
+    return replace(shape, chain=links)
 
 
 def _same_length(state: PatternedState) -> Row:

@@ -8,7 +8,7 @@ from rodwell.problem.problem import Problem
 
 def in_such_a_hole(problem: Problem) -> bool:
     """Whether states off the wall are computed in a hole like that of a problem."""
-    return problem.hole is None or (problem.hole.planar and not problem.sections)
+    return problem.hole is None or not problem.sections
 
 
 def refuse_holes(problem: Problem, strings: bool = False) -> None:
@@ -18,15 +18,14 @@ def refuse_holes(problem: Problem, strings: bool = False) -> None:
     """
     if in_such_a_hole(problem):
         return
-    if problem.hole is not None and not problem.hole.planar:
+    if problem.in_space:
         field, value, must = "walk", str(problem.walk), "be 0"
         if problem.axis:
             field, value = "axis", f"{len(problem.axis)} points, or stations of a survey, that leave the vertical plane"
             must = "stay in a vertical plane"
         raise InputError(
-            field, value, f"must {must}: a load path begins with the rod that lies in a vertical plane, and in this "
-            "hole it lies beside the bottom and moves with the load; how it lies up to where it leaves the wall: "
-            "rodwell.lying_rod",
+            field, value, f"must {must} beside sections: off the wall a string is followed in the vertical plane, till "
+            "it buckles out of it; how it lies in this hole, up to where it leaves the wall: rodwell.lying_rod",
         )  # fmt: skip
     if problem.axis:
         raise InputError(
