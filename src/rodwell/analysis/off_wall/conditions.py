@@ -45,8 +45,9 @@ KNOWN_FORCE = 5e-6
 """A force at the end of a stretch in contact comes from third derivatives, which the elements along a path know to this
 part of |F|^{3/2}: an end of a gap that has just opened may seem to pull by less."""
 
-BESIDE_STEP = 2e-4
-"""Distance from a step of a string, in L, at which an end of a stretch or a point of contact has reached it."""
+BESIDE_STEP, BESIDE_OWN_STEP = 2e-4, 2e-6
+"""Distance from a step of a string, in L, at which an end of a stretch or a point of contact has reached it; of the gap
+at a step of the stiffness in a bend, which is as short as the step is low."""
 
 NO_SLOPE = 1e-7
 """Slope φ′ in rad/L that is as good as none at a step of the stiffness, and at an end that is not radially held."""
@@ -164,10 +165,8 @@ def conditions(state: PatternedState) -> tuple[Condition, ...]:
         if pattern.is_point(i):
             found.append(Condition(GROWS, i, float(solved.openings[i]), place))
     found += [at for last in (False, True) if (at := _at_end(state, last)) is not None]
-    found += [
-        Condition(LEAVES_EDGE, i, float(force), s)
-        for i, (s, force) in enumerate(zip(pattern.edges, state.edge_forces, strict=True))
-    ]
+    edges = enumerate(zip(pattern.edges, state.edge_forces, strict=True))
+    found += [Condition(LEAVES_EDGE, i, float(force), s) for i, (s, force) in edges]
     return (*found, *at_steps(state))
 
 
@@ -175,6 +174,7 @@ def at_steps(state: PatternedState) -> list[Condition]:
     """What steps of a string ask for: no slope in contact where the stiffness jumps, and no end of a stretch there."""
     shape, rod, found = state.solved.shape, state.model.problem.rod, []
     (below, above), section = rod.stiffness_sides, 0
+    own = rod.steps_of_stiffness_alone if state.problem.bent else ()
     for i, pieces in enumerate(state.elements):
         inner = range(section, section + len(pieces) - 1)
         for k in inner:
@@ -189,15 +189,15 @@ def at_steps(state: PatternedState) -> list[Condition]:
             first, last = float(rod.breaks[1 + inner.start]), float(rod.breaks[inner.stop])
             for number, s, end in ((2 * i - 1, first, state.bounds[i]), (2 * i, last, state.bounds[i + 1])):
                 if 0 <= number < 2 * state.pattern.breaks:
-                    found.append(Condition(CROSSES, number, abs(float(end) - s) - BESIDE_STEP, s))
+                    reached = BESIDE_OWN_STEP if s in own and not state.pattern.touching[i] else BESIDE_STEP
+                    found.append(Condition(CROSSES, number, abs(float(end) - s) - reached, s))
         section += len(pieces) - 1
     return found
 
 
 def kink_force(state: PatternedState, s: float) -> float:
     """Outward contact force over Δ at a kink of the stiffness in contact; negative: the wall would have to pull."""
-    rod = state.problem.rod
-    k = int(np.searchsorted(rod.breaks[1:-1], s))
+    rod, k = state.problem.rod, int(np.searchsorted(state.problem.rod.breaks[1:-1], s))
     return float(rod.stiffness_kink_sizes[k] * rod.clearance.coefficients[k, 0] * slope_at(state.solved.shape, s) ** 2)
 
 

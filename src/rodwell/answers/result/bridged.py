@@ -12,7 +12,8 @@ from rodwell.analysis.path.bridged import farthest
 from rodwell.analysis.path.events import CRITICAL, LOADING, PathPoint
 from rodwell.analysis.path.follow import load_path
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.answers.result.beyond import PATIENCE, StateBeyond
+from rodwell.answers.result.beyond import StateBeyond
+from rodwell.answers.result.computed import PATIENCE, TOO_LONG
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
 from rodwell.errors import RodwellError
@@ -117,7 +118,7 @@ def bridged_answer(case: Case, tell: Callable[[str, float], None] = lambda _what
         tell(f"{leg}, F = {force:.4g} B/L²", min(abs(force) / far, 1.0))
         if time.process_time() - begun <= PATIENCE:
             return None
-        return f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"
+        return TOO_LONG
 
     path = load_path(case.problem, rtol=case.rtol, progress=progress)
     found, buckling = path.first(CRITICAL), None

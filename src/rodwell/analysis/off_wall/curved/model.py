@@ -116,6 +116,15 @@ class RodOffCurvedWall(RodInHole):
         """N (m,): the force that drives the rod at ``s`` along the hole, reduced to its axis, in B/L²."""
         return np.asarray(self._drive(self.beside(s), load))
 
+    def pressed(self, s: FloatArray, load: float) -> FloatArray:
+        """By how much the undeformed rod is pressed to the wall at places of any shape, per length, for small slopes.
+
+        It is ∫ b(κ + x″)²/2 − N(1 + κx) ds with the weight that is least, x the height above the wall.
+        """
+        hole, drive, rod, at = self.beside(s), self.drive(s, load), self.problem.rod, s.ravel()
+        weight, b = rod.weight(at).reshape(s.shape), rod.stiffness(at).reshape(s.shape)
+        return np.asarray(self.problem.weight * weight * hole[G1] - drive * hole[K1] + b * hole[K1] ** 3)
+
     def drift(self, s: FloatArray, u: FloatArray, load: float, mixed: FloatArray, given: FloatArray) -> FloatArray:
         """The derivative of the gradient by s: by N, w g₁ and w g₂, in which the densities are linear, and k₁, k₂."""
         rates, weight, d = self.beside.rates(s), self.problem.weight, self.problem.clearance
