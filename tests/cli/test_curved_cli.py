@@ -50,7 +50,7 @@ def test_critical_as_json() -> None:
         (("critical", "--build", "0.2", "--ends", "ball-ball"), "leaves the wall at a ball end"),
         (
             ("critical", "--walk", "0.2", "--sections", "0.5:1:1:1.2,0.5:2"),
-            "must have one clearance in a hole along an axis",
+            "must have one clearance in a hole that leaves the vertical plane",
         ),
         (("certify", "--build", "0.2"), "loads are proved of a rod without weight"),
         (("sensitivity", "--build", "0.2", "--walk", "0.1", "--mode", "2"), "no critical load"),

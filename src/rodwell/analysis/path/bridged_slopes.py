@@ -24,6 +24,7 @@ from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.path.events import CRITICAL
 from rodwell.analysis.path.follow import load_path, not_held_at_steps
+from rodwell.analysis.straight.lying_slopes import inputs_of
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import softest, stiffness_along
@@ -123,8 +124,9 @@ def bridged_slopes(state: ContactState) -> tuple[Derivatives, tuple[Derivatives,
         return Value(fine[0], fine[1] + doubt + abs(fine[0] - coarse[0]))
 
     whole = {}
-    data = [("weight", problem.weight), ("alpha", 90.0), ("clearance", problem.clearance)]
-    for name, size in data + [("build", problem.build)] * (problem.hole is not None):
+    data = {"weight": problem.weight, "alpha": 90.0, "clearance": problem.clearance, "build": problem.build}
+    for name in inputs_of(problem) if problem.hole is not None else ("weight", "alpha", "clearance"):
+        size = data[name]
 
         def more(x: float, name: str = name, size: float = size) -> tuple[Problem, float]:
             return problem.but(**{name: getattr(problem, name) + x * size}), force

@@ -99,8 +99,8 @@ def load_path(
     Raises
     ------
     InputError
-        For a rod outside the cylinder or on top of it, for loads out of range or order, and for a curved hole along an
-        axis, out of the vertical plane, of a string that tapers, with a soft wall, or in which the rod lies only in
+        For a rod outside the cylinder or on top of it, for loads out of range or order, and for a curved hole
+        out of the vertical plane, of a string that tapers, with a soft wall, or in which the rod lies only in
         tension.
     NotConvergedError
         If the straight rod's critical load, or the path's first state, could not be computed.

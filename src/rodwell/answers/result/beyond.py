@@ -138,7 +138,7 @@ def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, s
     if not in_such_a_hole(case.problem):
         return None, (
             "states off the wall of a curved hole are computed of a uniform rod in a hole that stays in a vertical "
-            "plane; `rodwell path` has a string of sections in one curvature (build) until it buckles"
+            "plane; `rodwell path` has a string of sections there until it buckles"
         )
     left = computed.left_before
     if left is not None and left.value >= 0.0:

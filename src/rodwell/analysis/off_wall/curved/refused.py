@@ -28,11 +28,6 @@ def refuse_holes(problem: Problem, strings: bool = False) -> None:
             "hole it lies beside the bottom and moves with the load; how it lies up to where it leaves the wall: "
             "rodwell.lying_rod",
         )  # fmt: skip
-    if problem.axis:
-        raise InputError(
-            "axis", f"{len(problem.axis)} points", "must be left out beside sections: off the wall a string takes a "
-            "hole of one curvature; give build, the mean curvature of that piece of the hole, and alpha there",
-        )  # fmt: skip
     if not strings:
         raise InputError(
             "sections", f"{len(problem.sections)} of them", "must be left out in a curved hole: it bends a stiffer "
