@@ -19,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -173,10 +173,9 @@ def conditions(state: PatternedState) -> tuple[Condition, ...]:
 def at_steps(state: PatternedState) -> list[Condition]:
     """What steps of a string ask for: no slope in contact where the stiffness jumps, and no end of a stretch there."""
     shape, rod, found = state.solved.shape, state.model.problem.rod, []
-    (below, above), section = rod.stiffness_sides, 0
-    own = rod.steps_of_stiffness_alone if state.problem.bent else ()
-    for i, pieces in enumerate(state.elements):
-        inner = range(section, section + len(pieces) - 1)
+    (below, above), own = rod.stiffness_sides, rod.steps_of_stiffness_alone if state.problem.bent else ()
+    for i, ends in enumerate(pairwise(state.bounds)):
+        inner = range(*np.searchsorted(rod.breaks[1:-1], ends))
         for k in inner:
             s = float(rod.breaks[1 + k])
             if state.pattern.touching[i] and below[k] != above[k]:
@@ -191,7 +190,6 @@ def at_steps(state: PatternedState) -> list[Condition]:
                 if 0 <= number < 2 * state.pattern.breaks:
                     reached = BESIDE_OWN_STEP if s in own and not state.pattern.touching[i] else BESIDE_STEP
                     found.append(Condition(CROSSES, number, abs(float(end) - s) - reached, s))
-        section += len(pieces) - 1
     return found
 
 
