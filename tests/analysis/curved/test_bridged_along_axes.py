@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from rodwell import Case, LoadPath, Problem, critical_loads, load_path, sensitivities
 from rodwell.analysis.discrete.curved import hole_at, rates_at, stations_along, undeformed_place
 from rodwell.analysis.off_wall.curved.model import rod_in_hole
+from rodwell.answers.result.bridged import bridged_answer
 
 Strings = tuple[tuple[float, ...], ...]
 
@@ -93,19 +94,18 @@ def test_derivatives_along_an_axis_are_those_of_differences() -> None:
 SURVEY = "MD [m],INC,AZI\n" + "".join(f"{1000 + 10 * i},{40 + 1.5 * i + 0.15 * i * i},30\n" for i in range(9))
 
 
-def surveyed(folder: Path) -> Problem:
-    """Collars of two stiffnesses along stations 10 m apart, of which the gap at their step passes one."""
+def surveyed(folder: Path, *parts: tuple[str, str, str]) -> Case:
+    """A string of sections (length, outer and inner diameter) along stations 10 m apart."""
     (folder / "survey.csv").write_text(SURVEY)
-    body = {"outer_diameter": "6.5 in", "material": "steel"}
-    bores = (("30 ft", "4 in"), ("90 ft", "2.8125 in"))
-    sections = [body | {"length": length, "inner_diameter": bore} for length, bore in bores]
+    keys = ("length", "outer_diameter", "inner_diameter")
+    sections = [dict(zip(keys, part, strict=True)) | {"material": "steel"} for part in parts]
     hole = {"diameter": "8.5 in", "survey": "survey.csv", "from": "1015 m"}
-    return Case.from_dict({"string": sections, "hole": hole}, folder=folder).problem
+    return Case.from_dict({"string": sections, "hole": hole}, folder=folder)
 
 
 def test_elements_end_at_stations_of_a_survey(tmp_path: Path) -> None:
-    """Balance in space, beside kinks of the curvature's rate: without them it is missed by 10⁻⁵."""
-    problem = surveyed(tmp_path)
+    """Balance in space, where the gap beside the step passes a station: without them it is missed by 10⁻⁵."""
+    problem = surveyed(tmp_path, ("30 ft", "6.5 in", "4 in"), ("90 ft", "6.5 in", "2.8125 in")).problem
     path = load_path(problem)
     stations = stations_along(problem)
     gaps = [state.bounds[2] for state in path.legs[0].runs[0]]
@@ -114,3 +114,15 @@ def test_elements_end_at_stations_of_a_survey(tmp_path: Path) -> None:
         state = path.at(load)[0].state
         assert state.certificate.worst < 1e-7
     assert path.first("critical") is not None
+
+
+def test_what_misses_its_balance_beside_a_station_loses_no_answer(tmp_path: Path) -> None:
+    """A stabiliser between collars: at its clearance it is not quite beside the stations at which elements end."""
+    collars, stabiliser = ("6.5 in", "2.8125 in"), ("5 ft", "8.25 in", "2.8125 in")
+    found = bridged_answer(surveyed(tmp_path, ("30 ft", *collars), stabiliser, ("85 ft", *collars)))
+    assert found.buckling is not None
+    assert found.buckling[0].met
+    assert found.buckling[1].state.certificate.worst < 1e-7
+    assert found.alone.state.certificate.passed == (not any("balance missed by" in one for one in found.missed))
+    assert found.alone.state.certificate.worst < 1e-5
+    assert not found.converged
