@@ -180,7 +180,7 @@ def test_a_string_that_floats_in_part() -> None:
 
 def test_what_is_not_computed_of_a_string_that_floats_in_part() -> None:
     given = {"angle_from_vertical": "100 deg", "wall_stiffness": "1 MPa", "walk": "1 deg/30 m"}
-    why = {"walk": "must have one sign of weight in a hole along an axis or with walk"}
+    why = {"walk": "must have one sign of weight in a hole that leaves the vertical plane"}
     for key, value in given.items():
         with pytest.raises(InputError, match=why.get(key, "where some sections sink and others float")) as caught:
             in_part(**{key: value})

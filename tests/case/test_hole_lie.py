@@ -159,6 +159,8 @@ def test_a_string_lies_along_a_curved_hole(folder: Path, hole: dict[str, str]) -
     assert weight / hangs == pytest.approx((127.0**2 - 76.2**2) / (127.0**2 - 108.6**2), rel=1e-9)
 
 
-def test_a_string_of_several_clearances_along_a_survey_is_refused_with_the_remedy(folder: Path) -> None:
-    with pytest.raises(InputError, match=r"string = .*one clearance for all sections, as hole\.clearance"):
-        string_case(folder, "171 mm", survey="well.csv", to="1300 m")
+def test_a_string_of_several_clearances_is_taken_along_a_survey_that_stays_in_a_vertical_plane(folder: Path) -> None:
+    problem = string_case(folder, "171 mm", survey="well.csv", to="1300 m").problem
+    assert problem.bridges
+    assert problem.hole is not None
+    assert problem.hole.planar

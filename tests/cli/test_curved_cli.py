@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -49,7 +50,7 @@ def test_critical_as_json() -> None:
         (("critical", "--build", "0.2", "--ends", "ball-ball"), "leaves the wall at a ball end"),
         (
             ("critical", "--walk", "0.2", "--sections", "0.5:1:1:1.2,0.5:2"),
-            "must have one clearance in a hole along an axis",
+            "must have one clearance in a hole that leaves the vertical plane",
         ),
         (("certify", "--build", "0.2"), "loads are proved of a rod without weight"),
         (("sensitivity", "--build", "0.2", "--walk", "0.1", "--mode", "2"), "no critical load"),
@@ -152,6 +153,23 @@ def test_critical_says_what_a_bend_asks_of_the_wall_at_a_step() -> None:
     (step,) = json.loads(run("critical", *BENT_STRING, "--json")[1])["lying"]["steps"]
     assert step["couple"]["value"] == pytest.approx(0.7 * 0.3 / 1.003, rel=1e-12)
     assert step["leaves_wall"]
+
+
+def test_run_tells_the_load_of_a_string_that_nothing_holds_at_its_steps_too(tmp_path: Path) -> None:
+    case = tmp_path / "bent.toml"
+    case.write_text(
+        'title = "bent"\n[dimensionless]\nweight = 15\nalpha = 60\nbuild = 0.3\nclearance = 0.01\n'
+        'sections = "0.6:1:1,0.4:0.3:0.5"\n[analysis]\nmodes = 1\n'
+    )
+    code, text = run("run", str(case), "--no-path", "--out", str(tmp_path / "out"))
+    assert code == 0
+    data = json.loads((tmp_path / "out" / "answer.json").read_text())
+    problem = Problem(15.0, 60.0, build=0.3, sections=((0.6, 1.0, 1.0), (0.4, 0.3, 0.5)))
+    event = load_path(problem).first("critical")
+    assert event is not None
+    assert data["lying"]["not_held_at_steps"]["value"] == pytest.approx(event.force.value, rel=1e-8)
+    words = " ".join(text.replace("│", " ").split())
+    assert f"One that nothing holds there buckles sideways at the end force −{-event.force.value:.6g}" in words
 
 
 def test_certify_says_which_numbers_are_taken_exactly() -> None:

@@ -28,7 +28,7 @@ STATIONS = ((0.0, 1.0, *[0.0] * 8), (1.0, math.cos(0.2), 0.0, math.sin(0.2), *[0
         (
             {"walk": 0.1, "sections": ((0.5, 1.0, 1.0, 1.2), (0.5, 2.0))},
             "sections",
-            "must have one clearance in a hole along an axis or with walk",
+            "must have one clearance in a hole that leaves the vertical plane",
         ),
         ({"build": 0.1, "ends": "loose-clamped"}, "ends", "leaves the wall"),
         ({"axis": POINTS, "build": 0.1}, "build", "left out"),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rodwell.cli.critical_bridged import bridged_numbers, first_buckling, show_bridged
+from rodwell.cli.critical_bridged import bridged_numbers, show_bridged
 from rodwell.cli.critical_in_hole import lying_numbers, show_lying, unheld_load
 from rodwell.cli.critical_varying import show_varying, varying_numbers
 from rodwell.cli.keep import keep, keep_options, take_keep
@@ -45,6 +45,8 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
 
     where, problem = take_keep(given), make_problem(given)
     if problem.bridges:
+        from rodwell.analysis.path.follow import first_buckling  # noqa: PLC0415
+
         path = first_buckling(problem, rtol)
         keep(where, lambda: bridged_numbers(path), quiet=as_json)
         show_bridged(path, rtol, as_json)

@@ -20,24 +20,6 @@ if TYPE_CHECKING:
     from rodwell.report.folders.numbers import Numbers
 
 
-def first_buckling(problem: Problem, rtol: float) -> LoadPath:
-    """The path of a string until it buckles out of its plane.
-
-    Raises
-    ------
-    NotConvergedError
-        If it does not, as far as it was followed.
-    """
-    from rodwell.analysis.path.follow import load_path  # noqa: PLC0415
-    from rodwell.errors import NotConvergedError  # noqa: PLC0415
-
-    path = load_path(problem, rtol=rtol)
-    if path.first("critical") is None:
-        why = path.ended_because or f"it was followed to F = {path.until:.6g} B/L²"
-        raise NotConvergedError(f"no load was found at which the string buckles out of its plane: {why}")
-    return path
-
-
 def show_bridged(path: LoadPath, rtol: float, as_json: bool) -> None:
     """Print the load, where the string touches then, and loads with one clearance everywhere; or all of it as JSON."""
     if as_json:

@@ -37,20 +37,12 @@ def show_lying(loads: CriticalLoads, tensile: CriticalLoads, unheld: Value | str
 def unheld_load(problem: Problem, rtol: float) -> Value | str | None:
     """The load at which a string buckles sideways that is off the wall beside its steps, or why it is not known.
 
-    None of one without steps of its stiffness, and in holes in which it is not computed.
+    None of one without steps of its stiffness.
     """
-    from rodwell.analysis.off_wall.curved.refused import refuse_holes  # noqa: PLC0415
-    from rodwell.cli.critical_bridged import first_buckling  # noqa: PLC0415
-    from rodwell.errors import RodwellError  # noqa: PLC0415
+    from rodwell.analysis.path.follow import not_held_at_steps  # noqa: PLC0415
 
-    if not problem.rod.stepped or problem.axis or problem.walk != 0.0:
-        return None
-    try:
-        refuse_holes(problem, strings=True)
-        found = first_buckling(problem, rtol).first("critical")
-    except RodwellError as error:
-        return str(error)
-    return None if found is None else found.force
+    found = not_held_at_steps(problem, rtol)
+    return found if found is None or isinstance(found, str) else found.force
 
 
 def lying_numbers(loads: CriticalLoads, tensile: CriticalLoads, unheld: Value | str | None) -> Numbers:

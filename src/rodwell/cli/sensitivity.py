@@ -31,7 +31,7 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
     from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     where, problem = take_keep(given), make_problem(given)
-    if problem.bridges:
+    if problem.leaves_wall:
         from rodwell.analysis.path.bridged_slopes import sensitivities  # noqa: PLC0415
     else:
         from rodwell.analysis.loads.sensitivity import sensitivities  # noqa: PLC0415

@@ -157,10 +157,12 @@ def _check_hole(problem: Any) -> None:
     refuse_off_wall(problem.ends, "the states of a rod in a curved hole")
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "must be 0 in a curved hole: coils are computed in straight ones")
-    if problem.bridges and (problem.axis or problem.walk != 0.0):
+    if problem.bridges and not hole.planar:
         kind = "one clearance" if problem.rod.clearance_steps.size else "one sign of weight"
-        what = f"must have {kind} in a hole along an axis or with walk: strings that bridge are computed in straight "
-        what += f"holes and in those of one build; give {kind} for all sections"
+        what = (
+            f"must have {kind} in a hole that leaves the vertical plane: strings that bridge are computed in straight "
+        )
+        what += f"holes and in those that stay in a vertical plane; give {kind} for all sections"
         raise InputError("sections", f"{len(problem.sections)} of them", what)
 
 

@@ -177,6 +177,11 @@ class Rod:
         return np.asarray(self.breaks[1:-1][after != before])
 
     @cached_property
+    def steps_of_stiffness_alone(self) -> FloatArray:
+        """Those of them where neither the clearance has one nor the weight changes its sign, (k,), in L."""
+        return np.setdiff1d(self.stiffness_steps, np.union1d(self.clearance_steps, self.sign_changes))
+
+    @cached_property
     def stiffness_breaks(self) -> BoolArray:
         """At which ends of sections within the rod the bending stiffness has a step or a kink, (n − 1,)."""
         sides = self.stiffness_sides, self.stiffness_rate_sides

@@ -194,7 +194,7 @@ def test_derivatives_are_those_of_differences() -> None:
 
 
 def test_what_is_not_computed_is_refused() -> None:
-    with pytest.raises(InputError, match="must have one clearance in a hole along an axis or with walk"):
+    with pytest.raises(InputError, match="must have one clearance in a hole that leaves the vertical plane"):
         Problem(50.0, 60.0, 1e-3, build=0.2, walk=0.1, sections=NARROWER)
     with pytest.raises(InputError, match="must not taper"):
         load_path(Problem(50.0, 60.0, 1e-3, build=0.2, sections=((0.5, (1, 2), 1), (0.5, 2, 1))))

@@ -200,7 +200,7 @@ def test_what_is_computed_of_rods_on_the_wall_is_refused() -> None:
     for compute in (lambda: critical_loads(problem), lambda: follow(problem, until=-200.0)):
         with pytest.raises(InputError, match="must all sink or all float"):
             compute()
-    with pytest.raises(InputError, match="must have one sign of weight in a hole along an axis or with walk"):
+    with pytest.raises(InputError, match="must have one sign of weight in a hole that leaves the vertical plane"):
         problem.but(walk=0.2)
     with pytest.raises(InputError, match="no lateral weight lays the string on the walls"):
         load_path(problem.but(alpha=0.0))

@@ -19,7 +19,7 @@ from rodwell.problem.lying import lying_rod_beside, places_of_lying_rod
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
 from rodwell.problem.sections import PLAIN
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import FloatArray, IntArray
 
 PIECES = 64
 """Pieces of the rod, at least, in each of which the hole is a polynomial: to round-off for curvatures up to several
@@ -162,40 +162,68 @@ def along_other_rod(problem: Problem, rod: Rod) -> HoleAlong:
     """The same with another rod in its place, whose sections end where sections of the problem's do.
 
     A(s) = ∫ₛ¹ q T·k ds, of a uniform rod by how much higher the loaded end lies than the rod at s. The rod has the
-    curvature κᵣ = k₁/(1 + Δk₁): what moves on bends with it, which gives C(s) = −∫ₛ¹ b κᵣκᵣ′ ds.
+    curvature κᵣ = k₁/(1 + Δk₁): what moves on bends with it, which gives C(s) = −∫ₛ¹ b κᵣκᵣ′ ds. Where clearances have
+    steps b is over what is carried on (:func:`carried`), and Δ that of the section.
     """
-    rise = hung(problem, rod, pieces_of(problem))
+    rise, whole = hung(problem, rod, pieces_of(problem)), rod.breaks.size != problem.rod.breaks.size
+    radius = np.full(rod.breaks.size - 1, problem.clearance)
+    over = np.ones(rod.breaks.size - 1)
+    if problem.rod.clearance_steps.size and not whole:
+        radius, over = radius * problem.rod.clearance.coefficients[:, 0], carried(problem)
 
-    def bending(k1: FloatArray) -> FloatArray:
-        return np.asarray(0.5 * (k1 / (1.0 + problem.clearance * k1)) ** 2)
+    def bending(k1: FloatArray, section: IntArray) -> FloatArray:
+        return np.asarray(0.5 * (k1 / (1.0 + radius[section] * k1)) ** 2 / over[section])
 
     def softening(s: FloatArray) -> FloatArray:
-        return rod.stiffness.derivative(s) * bending(hole_at(problem, undeformed_place(problem, s))[0][0])
+        k1 = hole_at(problem, undeformed_place(problem, s))[0][0]
+        return rod.stiffness.derivative(s) * bending(k1, rod.stiffness.piece_of(s))
 
-    ends = bending(hole_at(problem, undeformed_place(problem, rod.breaks[1:]))[0][0])
+    ends = hole_at(problem, undeformed_place(problem, rod.breaks[1:]))[0][0]
+    sections = np.arange(ends.size)
     below, above = rod.stiffness.sides  # C by parts: b κᵣ²/2, what steps of b leave of it, and what b′ does
-    left = np.append((above - below) * ends[:-1], -rod.stiffness(np.ones(1)) * ends[-1])
+    left = above * bending(ends[:-1], sections[1:]) - below * bending(ends[:-1], sections[:-1])
+    left = np.append(left, -rod.stiffness(np.ones(1)) * bending(ends[-1:], sections[-1:]))
     left = np.cumsum(left[::-1])[::-1]
     tapered = lifted(pieces_of(problem), softening) if rod.tapered else None
 
     def functions(s: FloatArray) -> FloatArray:
-        here, weight = hole_at(problem, undeformed_place(problem, s))[0], rod.weight(s)
+        here, weight, section = (
+            hole_at(problem, undeformed_place(problem, s))[0],
+            rod.weight(s),
+            rod.stiffness.piece_of(s),
+        )
         here[2:] *= weight
-        driven = rod.stiffness(s) * bending(here[0]) + left[rod.stiffness.piece_of(s)]
+        driven = rod.stiffness(s) * bending(here[0], section) + left[section]
         driven += 0.0 if tapered is None else tapered(s)
         return np.concatenate([here, rise(s)[None], driven[None]])
 
     return hole_along(rod, pieces_of(problem), functions)
 
 
+@lru_cache(maxsize=64)
+def carried(problem: Problem) -> FloatArray:
+    """What each section carries on of the force at s = 1 along the hole, for 1 + rk₁ of its own: c, (n,).
+
+    A section at the distance r from the axis moves 1 + rk₁ times as far as a place on the axis, so that N = (1 + rk₁)
+    c (F − wA + C). N goes on at steps of the clearance, and c is 1 at s = 1; where the curvature is constant it is
+    (1 + Δk₁)/(1 + rk₁), Δ that at s = 1.
+    """
+    rod = problem.rod
+    if not rod.clearance_steps.size:
+        return np.ones(rod.breaks.size - 1)
+    radii = problem.clearance * rod.clearance.coefficients[:, 0]
+    k1 = hole_at(problem, undeformed_place(problem, rod.breaks[1:-1]))[0][0]
+    steps = (1.0 + radii[1:] * k1) / (1.0 + radii[:-1] * k1)
+    return np.append(np.cumprod(steps[::-1])[::-1], 1.0)
+
+
 def hung(problem: Problem, rod: Rod, breaks: FloatArray) -> PiecewisePolynomial:
     """A(s) = ∫ₛ¹ q T·k ds of the undeformed rod, between ``breaks``."""
 
     def climb(s: FloatArray) -> FloatArray:
-        here, rise = hole_at(problem, undeformed_place(problem, s))
+        rise = hole_at(problem, undeformed_place(problem, s))[1]
         if problem.rod.clearance_steps.size:  # a step along the hole moves what lies nearer to the centre by less
-            reach = problem.clearance * problem.rod.clearance(s), problem.clearance * problem.rod.clearance(np.ones(1))
-            rise = rise * (1.0 + reach[0] * here[0]) / (1.0 + reach[1] * here[0])
+            rise = rise / carried(problem)[problem.rod.clearance.piece_of(s)]
         return rod.weight(s) * rise
 
     return lifted(breaks, climb)

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from rodwell.analysis.discrete.curved import stations_along
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import DEGREE, WAVES, Elements, Pattern, chain, counts, pieces_of
@@ -23,6 +24,9 @@ LONGEST_ELEMENT, SHORTEST_ELEMENT = 1.5, 0.45
 
 CURVED_WAVES = 0.4
 """WAVES in a curved hole, which presses the rod to the wall: beside short gaps there the push changes more sharply."""
+
+BESIDE_STATION = 0.02
+"""Part of an element's length from which on an end of a stretch is beside a station of the hole, which then is none."""
 
 SOFT_WALL = 2.0
 """Wavenumber of a rod pressed into a soft wall, in units (k/B)^¼: its push has kinks where contact ends."""
@@ -97,6 +101,8 @@ def solved(
     rod), at the distance they have now.
     """
     pattern = pattern if pattern.planar else replace(pattern, turns=turns_of(model, sample))
+    if elements is None and model.problem.bent:
+        pattern = replace(pattern, fixed=stations_within(model, breaks, load))
     shape, elements = arranged(model, pattern, breaks, load, sample, degree=degree, elements=elements)
     row = fixed_load(shape.chain, load) if fixed is None else _fixed_distance(shape, *fixed)
     state: Solved | None = solve(model, shape, row)[1]
@@ -156,8 +162,33 @@ def refined(state: PatternedState, more: int, along: Motion | None = None) -> Pa
     return None if found is None else PatternedState(state.pattern, state.elements, found)
 
 
+def stations_within(model: RodInHole, breaks: FloatArray, load: float) -> tuple[float, ...]:
+    """Stations of a surveyed hole at which elements of a string end: there the curvature has a kink of its rate.
+
+    Not those next to ends of stretches, which move, or to steps.
+    """
+    stations = stations_along(model.problem)
+    ends = np.concatenate([model.problem.rod.breaks, breaks])
+    away = np.min(np.abs(stations[:, None] - ends), axis=1) > BESIDE_STATION * _length_of_element(model, load)
+    return tuple(map(float, stations[away]))
+
+
+def _length_of_element(model: RodInHole, load: float) -> float:
+    return CURVED_WAVES * math.pi / wavenumber(model, load)
+
+
+def _at_stations(state: PatternedState) -> bool:
+    """Whether an end of a stretch has come to a station at which elements end, or has left one."""
+    fixed, breaks = np.array(state.pattern.fixed), state.solved.shape.breaks
+    near = 0.5 * BESIDE_STATION * _length_of_element(state.model, state.load)
+    come = bool(np.any(np.abs(fixed[:, None] - breaks) < near))
+    return come or len(stations_within(state.model, breaks, state.load)) > fixed.size
+
+
 def needs_new_elements(state: PatternedState) -> bool:
-    """Whether elements have become too long, or far too short."""
+    """Whether elements have become too long, or far too short, or an end of a stretch has come to a station."""
+    if state.problem.bent and _at_stations(state):
+        return True
     wanted = element_counts(state.model, state.solved.shape.breaks, state.load, fixed=state.pattern.fixed)
     return any(
         have * LONGEST_ELEMENT < want or (have > 1 and have * SHORTEST_ELEMENT > want)

@@ -26,7 +26,7 @@ import numpy as np
 
 from rodwell.analysis.off_wall.depth import Piece, contact_pieces, least_gaps
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.pattern import Elements, Pattern, last_place, pieces_of
+from rodwell.analysis.off_wall.pattern import Elements, Pattern, corners_within, last_place, pieces_of
 from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIUS, Shape
 from rodwell.numerics.stretches.minima import CLOSER, lowest
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
@@ -45,8 +45,9 @@ KNOWN_FORCE = 5e-6
 """A force at the end of a stretch in contact comes from third derivatives, which the elements along a path know to this
 part of |F|^{3/2}: an end of a gap that has just opened may seem to pull by less."""
 
-BESIDE_STEP = 2e-4
-"""Distance from a step of a string, in L, at which an end of a stretch or a point of contact has reached it."""
+BESIDE_STEP, BESIDE_OWN_STEP = 2e-4, 2e-6
+"""Distance from a step of a string, in L, at which an end of a stretch or a point of contact has reached it; of the gap
+at a step of the stiffness in a bend, which is as short as the step is low."""
 
 NO_SLOPE = 1e-7
 """Slope φ′ in rad/L that is as good as none at a step of the stiffness, and at an end that is not radially held."""
@@ -161,21 +162,17 @@ def conditions(state: PatternedState) -> tuple[Condition, ...]:
         if pattern.is_point(i):
             found.append(Condition(GROWS, i, float(solved.openings[i]), place))
     found += [at for last in (False, True) if (at := _at_end(state, last)) is not None]
-    found += [
-        Condition(LEAVES_EDGE, i, float(force), s)
-        for i, (s, force) in enumerate(zip(pattern.edges, state.edge_forces, strict=True))
-    ]
+    edges = enumerate(zip(pattern.edges, state.edge_forces, strict=True))
+    found += [Condition(LEAVES_EDGE, i, float(force), s) for i, (s, force) in edges]
     return (*found, *at_steps(state))
 
 
 def at_steps(state: PatternedState) -> list[Condition]:
     """No slope in contact at steps of the stiffness, no end of a stretch where elements end: at steps, at stations."""
     shape, rod, found = state.solved.shape, state.model.problem.rod, list[Condition]()
-    if all(len(pieces) == 1 for pieces in state.elements):
-        return found
-    (corners, section), (below, above), first_corner = pieces_of(state.problem), rod.stiffness_sides, 0
-    for i, pieces in enumerate(state.elements):
-        inner = range(first_corner, first_corner + len(pieces) - 1)
+    (corners, section), (below, above) = pieces_of(state.problem), rod.stiffness_sides
+    own = rod.steps_of_stiffness_alone if state.problem.bent else ()
+    for i, inner in enumerate(corners_within(corners, state.elements, state.bounds if state.problem.bent else None)):
         for k in (section[corner] for corner in inner if section[corner] != section[corner + 1]):
             s = float(rod.breaks[1 + k])
             if state.pattern.touching[i] and below[k] != above[k]:
@@ -188,15 +185,14 @@ def at_steps(state: PatternedState) -> list[Condition]:
             first, last = float(corners[inner.start]), float(corners[inner.stop - 1])
             for number, s, end in ((2 * i - 1, first, state.bounds[i]), (2 * i, last, state.bounds[i + 1])):
                 if 0 <= number < 2 * state.pattern.breaks:
-                    found.append(Condition(CROSSES, number, abs(float(end) - s) - BESIDE_STEP, s))
-        first_corner += len(pieces) - 1
+                    reached = BESIDE_OWN_STEP if s in own and not state.pattern.touching[i] else BESIDE_STEP
+                    found.append(Condition(CROSSES, number, abs(float(end) - s) - reached, s))
     return found
 
 
 def kink_force(state: PatternedState, s: float) -> float:
     """Outward contact force over Δ at a kink of the stiffness in contact; negative: the wall would have to pull."""
-    rod = state.problem.rod
-    k = int(np.searchsorted(rod.breaks[1:-1], s))
+    rod, k = state.problem.rod, int(np.searchsorted(state.problem.rod.breaks[1:-1], s))
     return float(rod.stiffness_kink_sizes[k] * rod.clearance.coefficients[k, 0] * slope_at(state.solved.shape, s) ** 2)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 import numpy as np
 
@@ -107,9 +107,12 @@ def pieces_of(problem: Problem, fixed: tuple[float, ...] = ()) -> tuple[FloatArr
 
 @lru_cache(maxsize=64)
 def _stations(problem: Problem) -> tuple[float, ...]:
-    """Places of stations of the hole along the undeformed rod; of those that are close together one, none by a step."""
+    """Places of stations of the hole along the undeformed rod; of those that are close together one, none by a step.
+
+    None of strings, of which those away from ends of stretches are fixed: see :mod:`rodwell.analysis.off_wall.arrange`.
+    """
     kept: list[float] = []
-    if problem.hole is not None:
+    if problem.hole is not None and not problem.sections:
         steps = problem.rod.breaks
         for s in map(float, stations_along(problem)):
             if s - (kept[-1] if kept else 0.0) >= APART and float(np.min(np.abs(steps - s))) >= APART:
@@ -120,6 +123,17 @@ def _stations(problem: Problem) -> tuple[float, ...]:
 def last_place(problem: Problem, left: FloatArray, right: FloatArray) -> FloatArray | float:
     """Up to where elements have the hole of their side: at stations, where some end, the contact jumps; or no limit."""
     return right - BEFORE * (right - left) if problem.hole is not None and _stations(problem) else np.inf
+
+
+def corners_within(corners: FloatArray, elements: Elements, bounds: FloatArray | None) -> list[range]:
+    """Which of the corners each stretch holds: as its elements do; or by place, with the ends of all stretches.
+
+    The latter of strings in bends, where elements end at fixed places besides.
+    """
+    if bounds is not None:
+        return [range(*np.searchsorted(corners, ends)) for ends in pairwise(bounds)]
+    first = [0, *accumulate(len(pieces) - 1 for pieces in elements)]
+    return [range(a, b) for a, b in pairwise(first)]
 
 
 def counts(

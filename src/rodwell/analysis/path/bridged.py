@@ -28,7 +28,8 @@ from rodwell.quantities.tolerance import LARGEST_FORCE
 
 FARTHEST = 10.0
 """End force up to which a string is compressed in search of its buckling, in that of a clamped rod of its stiffest and
-heaviest section in its narrowest hole."""
+heaviest section in its narrowest hole; beside twice 4bκ/Δ, at which a bend alone presses as hard as a bed that buckles:
+F = 2√(bP/Δ) with P = Fκ."""
 
 LARGEST = 2.0
 """Largest step along the path: in the plane a string bends little more from one load to the next."""
@@ -54,7 +55,8 @@ def farthest(problem: Problem) -> float:
     b, q = float(np.max(problem.rod.ranges["stiffness"])), float(np.max(problem.rod.sizes_of_weight))
     narrow = problem.clearance * float(np.min(problem.rod.ranges["clearance"]))
     of_bed = 2.0 * float(np.sqrt(b * q * problem.lateral_weight / narrow))
-    return max(-FARTHEST * (4.0 * np.pi**2 * b + of_bed + problem.weight), -LARGEST_FORCE)
+    of_bend = 0.0 if problem.hole is None else 4.0 * b * problem.hole.sharpest / narrow
+    return max(-FARTHEST * (4.0 * np.pi**2 * b + of_bed + problem.weight) - 2.0 * of_bend, -LARGEST_FORCE)
 
 
 def bridging(model: RodInHole, until: float, rtol: float, progress: Callable[[float], str | None] | None) -> Walked:

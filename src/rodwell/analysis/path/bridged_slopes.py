@@ -23,7 +23,8 @@ from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.curved.model import rod_in_hole
 from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.path.events import CRITICAL
-from rodwell.analysis.path.follow import load_path
+from rodwell.analysis.path.follow import load_path, not_held_at_steps
+from rodwell.analysis.straight.lying_slopes import inputs_of
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import softest, stiffness_along
@@ -36,6 +37,10 @@ from rodwell.quantities.value import Value
 STEP = 2e-4
 """Largest step, as a part of what is moved."""
 
+NOT_HELD = "load at which it buckles sideways, not held at its steps"
+
+NOT_FOUND = "Of the string that nothing holds at its steps, off the wall beside them, it was not found"
+
 Moved = Callable[[float], tuple[Problem, float]]
 """The problem and the end force with a datum moved by a part of its size."""
 
@@ -44,7 +49,8 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
     """Derivatives of the critical load of a mode and, where the rod is pressed to the wall, of its lift-off load.
 
     Where the clearance has steps, of the load at which the string that bridges them buckles sideways:
-    :func:`bridged_slopes`.
+    :func:`bridged_slopes`. Where a curved hole bends a string with steps of its stiffness, of that of the string that
+    nothing holds there too, after those of one that lies on the wall all along; what was not found is said in its note.
 
     Parameters
     ----------
@@ -64,7 +70,8 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
         If a load cannot be computed.
     """
     if not problem.bridges:
-        return of_loads(problem, mode, rtol=rtol)
+        loads = of_loads(problem, mode, rtol=rtol)
+        return loads if mode != 1 else _and_not_held(loads, problem, rtol)
     if mode != 1:
         raise InputError("mode", mode, "must be 1 where the clearance has steps: the string is followed to its first")
     path = load_path(problem, rtol=rtol)
@@ -73,6 +80,22 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
         raise NotConvergedError(f"no load was found at which the string buckles sideways: {path.ended_because}")
     name, (derivatives, sections) = "load at which it buckles sideways", bridged_slopes(found.state)
     return (Sensitivity(name, problem, found.force.value, derivatives, "", sections, not path.missed),)
+
+
+def _and_not_held(loads: tuple[Sensitivity, ...], problem: Problem, rtol: float) -> tuple[Sensitivity, ...]:
+    """These loads, and the one of a string that nothing holds at steps of its stiffness in a bend."""
+    found = not_held_at_steps(problem, rtol)
+    if found is None:
+        return loads
+    try:
+        if isinstance(found, str):
+            raise NotConvergedError(found)
+        assert found.state is not None
+        derivatives, sections = bridged_slopes(found.state)
+    except NotConvergedError as error:
+        first = replace(loads[0], note=f"{loads[0].note} {NOT_FOUND}: {error}.".strip())
+        return (first, *loads[1:])
+    return (*loads, Sensitivity(NOT_HELD, problem, found.force.value, derivatives, "", sections, found.met))
 
 
 def bridged_slopes(state: ContactState) -> tuple[Derivatives, tuple[Derivatives, ...]]:
@@ -101,8 +124,9 @@ def bridged_slopes(state: ContactState) -> tuple[Derivatives, tuple[Derivatives,
         return Value(fine[0], fine[1] + doubt + abs(fine[0] - coarse[0]))
 
     whole = {}
-    data = [("weight", problem.weight), ("alpha", 90.0), ("clearance", problem.clearance)]
-    for name, size in data + [("build", problem.build)] * (problem.hole is not None):
+    data = {"weight": problem.weight, "alpha": 90.0, "clearance": problem.clearance, "build": problem.build}
+    for name in inputs_of(problem) if problem.hole is not None else ("weight", "alpha", "clearance"):
+        size = data[name]
 
         def more(x: float, name: str = name, size: float = size) -> tuple[Problem, float]:
             return problem.but(**{name: getattr(problem, name) + x * size}), force

@@ -11,6 +11,7 @@ pattern found there is solved for as any other, with the energy of any slope
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
@@ -27,10 +28,12 @@ from rodwell.analysis.off_wall.conditions import (
     PatternedState,
     conditions,
 )
-from rodwell.analysis.off_wall.curved.model import G1, K1, RodOffCurvedWall
+from rodwell.analysis.off_wall.curved.beside_steps import short_gaps, with_short_gaps
+from rodwell.analysis.off_wall.curved.model import K1, RodOffCurvedWall
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.numerics.stretches.basis import tabulate
+from rodwell.numerics.stretches.carry import Sampler
 from rodwell.numerics.stretches.springs import on_springs, sampled, without_held
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import BoolArray, FloatArray
@@ -82,16 +85,27 @@ def _of_beam(model: RodInHole, load: float, *, let_down: bool = False) -> Patter
         places, height = _beam(model, load, let_down=let_down)
     except np.linalg.LinAlgError:  # it would buckle without walls: there may be several states
         return None
-    seen = set()
-    for few in POINTS:
-        pattern, breaks = _pattern(model.problem, places, height[::2], few)
-        if pattern in seen:
-            continue
-        seen.add(pattern)
-        found = solved(model, pattern, breaks, load, sampled(places, height))
+    for start in _starts(model, load, places, height):
+        found = solved(model, *start[:2], load, start[2])
         if found is not None and (found := _mended(found)) is not None:
             return found
     return None
+
+
+def _starts(
+    model: RodInHole, load: float, places: FloatArray, height: FloatArray
+) -> Iterator[tuple[Pattern, FloatArray, Sampler]]:
+    """Patterns that the beam may have, with ends of stretches and shape; then with short gaps where it has none."""
+    seen: dict[Pattern, FloatArray] = {}
+    sample = sampled(places, height)
+    for few in POINTS:
+        pattern, breaks = _pattern(model.problem, places, height[::2], few)
+        if pattern not in seen:
+            seen[pattern] = breaks
+            yield pattern, breaks, sample
+    if isinstance(model, RodOffCurvedWall) and (gaps := short_gaps(model, load)):
+        for pattern, breaks in seen.items():
+            yield with_short_gaps(model, pattern, breaks, sample, gaps)
 
 
 def _mended(state: PatternedState) -> PatternedState | None:
@@ -215,17 +229,15 @@ def _assembled(model: RodInHole, load: float, places: FloatArray) -> tuple[Float
     rod, shape = problem.rod, s.shape
     stiffness, weight, lever = (one(s.ravel()).reshape(shape) for one in (rod.stiffness, rod.weight, rod.lever))
     tension = load + problem.axial_weight * lever
-    bend, across, drawn = np.zeros(1), problem.lateral_weight * weight, 0.0
-    if isinstance(model, RodOffCurvedWall):  # it is b(κ + x″)²/2 − N(1 + κx) that is least
-        hole, tension = model.beside(s), model.drive(s, load)
-        bend, across = hole[K1], problem.weight * weight * hole[G1]
-        drawn = tension * bend - stiffness * bend**3
+    bend, pressed = np.zeros(1), problem.lateral_weight * weight
+    if isinstance(model, RodOffCurvedWall):
+        bend, tension, pressed = model.beside(s)[K1], model.drive(s, load), model.pressed(s, load)
     scale = np.stack([np.ones_like(h), h, np.ones_like(h), h], axis=1)  # of slopes
     w = 0.5 * weights
     matrix = np.einsum("eq,qi,qj->eij", stiffness * w / h[:, None] ** 3, table[2], table[2])
     matrix += np.einsum("eq,qi,qj->eij", tension * w / h[:, None], table[1], table[1])
     matrix *= scale[:, :, None] * scale[:, None, :]
-    push = np.einsum("eq,qi->ei", (drawn - across) * w * h[:, None], table[0])
+    push = -np.einsum("eq,qi->ei", pressed * w * h[:, None], table[0])
     push = (push - np.einsum("eq,qi->ei", stiffness * bend * w / h[:, None], table[2])) / problem.clearance
     band, force = np.zeros((4, 2 * places.size)), np.zeros(2 * places.size)
     first = 2 * np.arange(h.size)
@@ -241,9 +253,9 @@ def _pattern(problem: Problem, places: FloatArray, height: FloatArray, few: int)
 
     Between two corners, steps of the clearance and places where the weight changes its sign, a heavy beam that is
     nowhere compressed touches either side along one piece at most: over a gap with flat contact on both sides its
-    moment would be concave, and nowhere negative at the gap's ends. Beside an end that piece begins at the end. One of
-    no more than ``few`` nodes counts as a point, beside an end or an edge that is touched as none: a force between two
-    nodes presses both.
+    moment would be concave, and nowhere negative at the gap's ends. Beside an end that piece begins at the end, but of
+    a beam that a bend lifts there. One of no more than ``few`` nodes counts as a point, beside an end or an edge that
+    is touched as none: a force between two nodes presses both.
     """
     radius = _narrowest(problem, places)
     steps, corners = problem.rod.clearance_steps, np.union1d(problem.rod.clearance_steps, problem.rod.sign_changes)
@@ -251,10 +263,11 @@ def _pattern(problem: Problem, places: FloatArray, height: FloatArray, few: int)
         corners = np.union1d(corners, problem.rod.stiffness_steps)
     touching, breaks = [], []
     low, high = height < -radius, height > _upper(problem, radius)
+    begins = (True, True) if problem.hole is None else (low[1], low[-2])  # a bend may lift a stretched string there
     for left, right in pairwise([0.0, *corners, 1.0]):
         inside = (places > left) & (places < right)
         for piece, pressed in sorted(((places[on & inside], on) for on in (low, high)), key=_first):
-            at_end = (left == 0.0 and pressed is low, right == 1.0 and pressed is low)
+            at_end = (left == 0.0 and pressed is low and begins[0], right == 1.0 and pressed is low and begins[1])
             if piece.size <= few:
                 beside = np.flatnonzero(pressed & (places >= left) & (places <= right)).size > piece.size
                 if piece.size and not any(at_end) and not (beside and _next_to(places, piece, left, right)):

@@ -19,13 +19,13 @@ from rodwell.analysis.path.checks import (
     checked_range,
     checked_wall,
 )
-from rodwell.analysis.path.events import LOADING, UNLOADING, Leg
+from rodwell.analysis.path.events import CRITICAL, LOADING, UNLOADING, Leg, PathPoint
 from rodwell.analysis.path.legs import walked
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.path.loading import loaded
 from rodwell.analysis.path.straightening import How
 from rodwell.analysis.straight.critical import critical_loads
-from rodwell.errors import InputError, checked_whole
+from rodwell.errors import InputError, NotConvergedError, RodwellError, checked_whole
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 
@@ -104,8 +104,8 @@ def load_path(
     ------
     InputError
         For a rod outside the cylinder or on top of it, for loads out of range or order. In a curved hole for a soft
-        wall, for a string along an axis, out of the vertical plane or that tapers, for a rod that lies in its vertical
-        plane only in tension; out of that plane for ball joints and loose ends.
+        wall, for a string out of the vertical plane or that tapers, for a rod that lies in its vertical plane only in
+        tension; out of that plane for ball joints and loose ends.
     NotConvergedError
         If the straight rod's critical load, or the path's first state, could not be computed.
     """
@@ -146,3 +146,32 @@ def load_path(
         problem, until, unload_to, events, legs, not ended, ended, rtol, mirror, way.name, way.compliance,
         model.stiffness,
     )  # fmt: skip
+
+
+def first_buckling(problem: Problem, rtol: float = RTOL, progress: Progress | None = None) -> LoadPath:
+    """The path of a string that leaves the wall by itself, until it buckles out of its plane; arguments of load_path.
+
+    Raises
+    ------
+    NotConvergedError
+        If it does not, as far as it was followed.
+    """
+    path = load_path(problem, rtol=rtol, progress=progress)
+    if path.first(CRITICAL) is None:
+        why = path.ended_because or f"it was followed to F = {path.until:.6g} B/L²"
+        raise NotConvergedError(f"no load was found at which the string buckles out of its plane: {why}")
+    return path
+
+
+def not_held_at_steps(problem: Problem, rtol: float = RTOL, progress: Progress | None = None) -> PathPoint | str | None:
+    """Where a string buckles sideways that a curved hole keeps off its wall beside steps of the stiffness; or why not.
+
+    Beside it stands the critical load of one whose slope something holds there, on the wall all along. None of strings
+    without such steps, of those that bridge, and out of the vertical plane.
+    """
+    if problem.hole is None or not problem.hole.planar or problem.bridges or not problem.rod.stepped:
+        return None
+    try:
+        return first_buckling(problem, rtol, progress).first(CRITICAL)
+    except RodwellError as error:
+        return str(error)

@@ -207,7 +207,7 @@ def _lying(answer: Answer) -> dict[str, Any]:
     rest = {"leaves_before_buckling": answer.left_before is not None, "left_out": left_out(answer)}
     if answer.lying is not None:
         return {**answer.lying.as_dict(), **rest}
-    low, high = lies_between(answer.case.problem)
+    (low, high), free = lies_between(answer.case.problem), answer.not_held_at_steps
     ends = {"lowest_force": low, "highest_force": high}
     return {
         "side": side_of(answer.case),
@@ -216,6 +216,7 @@ def _lying(answer: Answer) -> dict[str, Any]:
             for name, one in ends.items()
         },
         **({"steps": steps_data(lying_step_loads(answer.case.problem))} if answer.case.problem.sections else {}),
+        **({} if free is None else {"not_held_at_steps": free if isinstance(free, str) else free.as_dict()}),
         **rest,
     }
 

@@ -17,6 +17,7 @@ from rodwell.answers.result.key_numbers import (
     critical_number,
     first_met,
     in_curved_hole,
+    not_held,
     real_force,
     rotations,
     state_numbers,
@@ -94,6 +95,7 @@ class Answer(Computed, Shown):
         if self.case.problem.hole is not None:
             lying = self.assessment.at_rest or self.assessment.at_buckling
             out += in_curved_hole(lying, self.lift_off_at_own_places, self.left_in_tension)
+            out += not_held(self.not_held_at_steps)
         elif self.at_lift_off is not None and self.case.cylinder is not None and self.case.scales is not None:
             out.append(stress_number(self.at_lift_off, self.case.cylinder, self.case.scales))
         return {key.name: key for key in out}

@@ -12,7 +12,7 @@ from rodwell.analysis.off_wall.state import ContactState, PointForce, contact_st
 from rodwell.analysis.path.events import LOADING, SNAP, PathPoint
 from rodwell.analysis.path.follow import Progress, load_path
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.answers.result.computed import Computed
+from rodwell.answers.result.computed import PATIENCE, TOO_LONG, Computed
 from rodwell.answers.result.lying import followed_from
 from rodwell.case.applied import AppliedLoad
 from rodwell.errors import NotConvergedError, RodwellError
@@ -31,9 +31,6 @@ BACK = 0.6
 
 SAME_LOAD = 1e-7
 """Part of a load by which the last state before a snap may differ from it."""
-
-PATIENCE = 45.0
-"""Processor time in s after which a path ends where it is."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +117,7 @@ def beyond(computed: Computed) -> Beyond:
     def progress(_leg: str, _force: float) -> str | None:
         if time.process_time() - begun <= PATIENCE:
             return None
-        return f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"
+        return TOO_LONG
 
     path, why = followed(computed, progress)
     if path is None:
@@ -141,7 +138,7 @@ def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, s
     if not in_such_a_hole(case.problem):
         return None, (
             "states off the wall of a curved hole are computed of a uniform rod; `rodwell path` has a string of "
-            "sections in one curvature (build) until it buckles"
+            "sections in a hole that stays in a vertical plane until it buckles"
         )
     left = computed.left_before
     if left is not None and left.value >= 0.0:

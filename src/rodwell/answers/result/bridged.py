@@ -7,15 +7,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from rodwell.analysis.off_wall.state import ContactState, PointForce
+from rodwell.analysis.off_wall.state import ContactState, PointForce, contact_state
 from rodwell.analysis.path.bridged import farthest
 from rodwell.analysis.path.events import CRITICAL, LOADING, PathPoint
 from rodwell.analysis.path.follow import load_path
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.answers.result.beyond import PATIENCE, StateBeyond
+from rodwell.answers.result.beyond import StateBeyond
+from rodwell.answers.result.computed import PATIENCE, TOO_LONG
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
-from rodwell.errors import RodwellError
+from rodwell.errors import NotConvergedError, RodwellError
 from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.profile import extremes
 from rodwell.problem.words import where_it_bridges
@@ -56,8 +57,11 @@ class Bridged:
 
     @property
     def missed(self) -> tuple[str, ...]:
-        """Loads that miss the tolerance, in words."""
-        return self.path.missed
+        """Loads that miss the tolerance, and the state without compression if it misses its balance, in words."""
+        certificate = self.alone.state.certificate
+        if certificate.passed:
+            return self.path.missed
+        return (*self.path.missed, f"how it lies without compression, balance missed by {certificate.worst:.1e}")
 
     @property
     def converged(self) -> bool:
@@ -117,16 +121,24 @@ def bridged_answer(case: Case, tell: Callable[[str, float], None] = lambda _what
         tell(f"{leg}, F = {force:.4g} B/L²", min(abs(force) / far, 1.0))
         if time.process_time() - begun <= PATIENCE:
             return None
-        return f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"
+        return TOO_LONG
 
     path = load_path(case.problem, rtol=case.rtol, progress=progress)
     found, buckling = path.first(CRITICAL), None
     if found is not None and found.state is not None:
         buckling = found, _there(found.state, found.force, section)
     top = path.legs[0].runs[0][0].load
-    alone = _there(path.at(top)[0].state, Value(top), section)
+    alone = _there(_lying(path, top), Value(top), section)
     applied = tuple((load, _at_load(path, load, top, found, section)) for load in case.applied)
     return Bridged(case, path, buckling, alone, applied)
+
+
+def _lying(path: LoadPath, top: float) -> ContactState:
+    """The first state of a path; one that misses its balance too, as beside stations of a survey that are far apart."""
+    try:
+        return path.at(top)[0].state
+    except NotConvergedError:
+        return contact_state(path.legs[0].runs[0][0])
 
 
 def _at_load(

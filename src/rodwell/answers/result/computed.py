@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,6 +19,7 @@ from rodwell.analysis.loads.derivatives import Sensitivity
 from rodwell.analysis.loads.ends import of_leaving, of_lift_off
 from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.loads.sensitivity import of_critical_load, of_first_met, of_lying_rod
+from rodwell.analysis.path.follow import not_held_at_steps
 from rodwell.analysis.state.certificate import Certificate
 from rodwell.analysis.state.own_places import lift_off_with_own_places
 from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
@@ -30,6 +32,11 @@ from rodwell.case.case import Case
 from rodwell.errors import NotConvergedError
 from rodwell.problem.clearances import refuse_ramps
 from rodwell.quantities.value import Peak, Value
+
+PATIENCE = 45.0
+"""Processor time in s after which a path ends where it is."""
+
+TOO_LONG = f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"
 
 
 @dataclass(frozen=True)
@@ -105,6 +112,23 @@ class Computed:
     def pulled_off(self, force: float) -> bool:
         """Whether an end force is above that: the rod has left the wall of a curved hole."""
         return self.left_in_tension is not None and force > self.left_in_tension.value
+
+    @cached_property
+    def not_held_at_steps(self) -> Value | str | None:
+        """The load at which a string buckles that nothing holds at steps of its stiffness in a bend; or why not known.
+
+        Critical loads and branches are those of one held on the wall there. None without such steps, and where the
+        hole leaves the vertical plane.
+        """
+        if self.lying is not None:
+            return None
+        begun = time.process_time()
+
+        def progress(_leg: str, _force: float) -> str | None:
+            return None if time.process_time() - begun <= PATIENCE else TOO_LONG
+
+        found = not_held_at_steps(self.case.problem, self.case.rtol, progress)
+        return found if found is None or isinstance(found, str) else found.force
 
     @property
     def off_at_once(self) -> bool:

@@ -75,6 +75,14 @@ def critical_length(problem: Problem) -> list[KeyNumber]:
     return [KeyNumber("critical_length", label, value, "length", length, note)]
 
 
+def not_held(load: Value | str | None) -> list[KeyNumber]:
+    """The load of a string that nothing holds at steps of its stiffness in a bend, where it is known."""
+    if load is None or isinstance(load, str):
+        return []
+    label = "Load at which it buckles if nothing holds it at steps of its stiffness, end force at s = 1"
+    return [KeyNumber("buckling_load_not_held", label, load, "force", force_scale(load.value))]
+
+
 def in_curved_hole(lying: LoadedRod, own: Value | None, tension: Peak | None) -> list[KeyNumber]:
     """What the hole's curvature does: bending of the lying rod, lift-off with own places, where tension lifts it off.
 

@@ -42,7 +42,18 @@ def _at_steps(answer: Answer) -> str:
     if lying is not None:
         return steps_note(lying.rest.step_loads, answer.case, bent=True)
     off = off_at_steps(problem, answer.critical[0].force)
-    return steps_note(lying_step_loads(problem), answer.case, bent=True, off=off)
+    return f"{steps_note(lying_step_loads(problem), answer.case, bent=True, off=off)}{_not_held(answer)}"
+
+
+def _not_held(answer: Answer) -> str:
+    """When a string buckles that nothing holds there: it may be before the one that is held, by little."""
+    load, held = answer.not_held_at_steps, answer.critical[0].load
+    if load is None:
+        return ""
+    if isinstance(load, str):
+        return f" When one buckles that nothing holds there was not found: {load}."
+    lower = " **earlier than the one that is held**" if load.value - load.error > held.value + held.error else ""
+    return f" One that nothing holds there buckles sideways{lower} at {forces_of(answer.case).load(load)}."
 
 
 def _places(answer: Answer) -> str:

@@ -2,7 +2,7 @@
 
 On the wall the density of :mod:`rodwell.physics.on_wall.curved` serves, off it that of
 :mod:`rodwell.physics.off_wall.curved_energy`; they are equal where both hold. Both take the hole where the undeformed
-rod is (:mod:`rodwell.analysis.discrete.curved`), or where tables say. Along a string the curvature is constant.
+rod is (:mod:`rodwell.analysis.discrete.curved`), or where tables say.
 
 A section of a string has b times the energy of a rod of stiffness 1 under 1/b of the loads, in a hole of its own
 clearance. The terms of the energy that are linear in the curvature of the offset, b k₁ x″ among them, are no total
@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.discrete.curved import HoleAlong, along_rod, along_uniform_rod
+from rodwell.analysis.discrete.curved import HoleAlong, along_rod, along_uniform_rod, carried
 from rodwell.analysis.discrete.family import parameters
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.physics.off_wall._curved_density import curved_hole_density
@@ -100,21 +100,41 @@ class RodOffCurvedWall(RodInHole):
         """Parameters at an end force, as kernels on the wall take them: the weight is the whole one."""
         return parameters(self.problem, load)
 
-    def farther(self, k1: Any) -> Any:
-        """1 + Δk₁ with the clearance at the loaded end: how much farther that moves than a place on the hole's axis."""
+    @cached_property
+    def given(self) -> FloatArray:
+        """Of each section b, q, d and ρ, and what it carries on of the force along the hole, (n, 5)."""
+        return np.concatenate([super().given, carried(self.problem)[:, None]], axis=1)
+
+    def farther(self, s: FloatArray, k1: Any) -> Any:
+        """(1 + rk₁) c at places ``s``, where N is that many times F − wA + C: see :func:`carried`."""
+        section = self.problem.rod.clearance.piece_of(s.ravel()).reshape(s.shape)
+        return (1.0 + self.problem.clearance * self.given[section, 3] * k1) * self.given[section, 4]
+
+    def farther_at_end(self, k1: Any) -> Any:
+        """How much farther the loaded end moves than a place on the hole's axis, 1 + Δk₁."""
         return 1.0 + self.problem.clearance * float(self.given[-1, 3]) * k1
 
-    def _further(self, k1: Any, radius: Any) -> Any:
-        """That over 1 + Δk₁ of the section, which kernels on the wall have: 1 but where clearances have steps."""
-        return self.farther(k1) / (1.0 + radius * k1)
+    def _farther(self, k1: Any, given: FloatArray) -> Any:
+        """The same as for places, of elements."""
+        return (1.0 + self.problem.clearance * given[3] * k1) * given[4]
 
     def _drive(self, hole: Any, load: float) -> Any:
-        """N = (1 + Δk₁)(F − w A + C)."""
-        return self.farther(hole[K1]) * (load - self.problem.weight * hole[LIFT] + hole[OFFSET])
+        """F − wA + C."""
+        return load - self.problem.weight * hole[LIFT] + hole[OFFSET]
 
     def drive(self, s: FloatArray, load: float) -> FloatArray:
         """N (m,): the force that drives the rod at ``s`` along the hole, reduced to its axis, in B/L²."""
-        return np.asarray(self._drive(self.beside(s), load))
+        hole = self.beside(s)
+        return np.asarray(self.farther(s, hole[K1]) * self._drive(hole, load))
+
+    def pressed(self, s: FloatArray, load: float) -> FloatArray:
+        """By how much the undeformed rod is pressed to the wall at places of any shape, per length, for small slopes.
+
+        It is ∫ b(κ + x″)²/2 − N(1 + κx) ds with the weight that is least, x the height above the wall.
+        """
+        hole, drive, rod, at = self.beside(s), self.drive(s, load), self.problem.rod, s.ravel()
+        weight, b = rod.weight(at).reshape(s.shape), rod.stiffness(at).reshape(s.shape)
+        return np.asarray(self.problem.weight * weight * hole[G1] - drive * hole[K1] + b * hole[K1] ** 3)
 
     def drift(self, s: FloatArray, u: FloatArray, load: float, mixed: FloatArray, given: FloatArray) -> FloatArray:
         """The derivative of the gradient by s: by N, w g₁ and w g₂, in which the densities are linear, and k₁, k₂."""
@@ -157,7 +177,7 @@ class RodOffCurvedWall(RodInHole):
         """The density on the wall of a rod of stiffness 1 with what a hole is there; ``hole`` is written to."""
         b, radius, own = given[0], self.problem.clearance * given[3], self._own(load, given)
         y, y1, y2 = radius * u[0]
-        further = self._further(hole[K1], radius)
+        further = given[4]
         hole[[G1, G2]] *= given[1]
         hole[LIFT], hole[OFFSET] = further * hole[LIFT], further / b * hole[OFFSET]
         own[FORCE] = further * own[FORCE]
@@ -188,10 +208,11 @@ class RodOffCurvedWall(RodInHole):
     def _within(self, hole: FloatArray, u: FloatArray, load: float, given: FloatArray) -> Any:
         """The density off the wall of a rod of stiffness 1 with what a hole is there."""
         d, b, weight = self.problem.clearance, given[0], self.problem.weight / given[0] * given[1]
-        loads = self._drive(hole, load) / b, weight * hole[G1], weight * hole[G2]
+        farther = self._farther(hole[K1], given)
+        loads = farther * self._drive(hole, load) / b, weight * hole[G1], weight * hole[G2]
         return curved_hole_density(
             d * u.reshape(6, *u.shape[2:]), hole[:2], d * given[3], self.problem.twist / b, loads,
-            (self.farther(hole[K1]) / b, 0.0, 0.0),
+            (farther / b, 0.0, 0.0),
         )  # fmt: skip
 
     def rim_reaction(
@@ -207,7 +228,7 @@ class RodOffCurvedWall(RodInHole):
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, …)."""
         rows = np.moveaxis(self.tables(s.ravel()).reshape(*s.shape, -1), -1, 0)
         radius, own = self.problem.clearance * given[3], self.parameters(load).tolist()
-        further = self._further(self.beside(s)[K1], radius)
+        further = given[4]
         rows = np.concatenate([np.broadcast_to(given[0], s.shape)[None], rows[1:]])
         rows[_ACROSS] *= given[1]
         rows[_ALONG] *= further
@@ -232,7 +253,7 @@ class RodOffCurvedWall(RodInHole):
 
     def bed(self, load: float) -> FloatArray:
         """√(P/(bΔ)) of the largest contact force per length P that weight and bend press each section with, (n,)."""
-        hole, (b, q, _, radius) = self.beside(self._looked_at), self.given.T[..., None]
+        hole, (b, q, _, radius, _) = self.beside(self._looked_at), self.given.T[..., None]
         bent = np.hypot(hole[K1], hole[K2])
         pressed = self.problem.weight * np.abs(q) * np.hypot(hole[G1], hole[G2])
         pressed = pressed + bent * (np.abs(self.drive(self._looked_at, load)) + b * bent)

@@ -21,6 +21,7 @@ from rodwell.analysis.discrete.curved import (
     lifted,
     rates_at,
     undeformed_place,
+    wall_side,
 )
 from rodwell.analysis.discrete.pieces import PiecewisePolynomial
 from rodwell.analysis.off_wall.conditions import PatternedState
@@ -32,6 +33,7 @@ from rodwell.numerics.stretches.chain import Shape
 from rodwell.numerics.stretches.newton import solve
 from rodwell.numerics.stretches.walk import row_of, tangent_in_load
 from rodwell.physics.off_wall._curved_density import curved_hole_density
+from rodwell.problem.lying import lying_rod_beside, places_of_lying_rod
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
 from rodwell.problem.sections import PLAIN
@@ -146,11 +148,11 @@ def _tables_of(state: PatternedState) -> HoleAlong:
         return np.asarray(problem.weight * climb(s) * step_along(state, s)[1] + _by_bends(state, s, place(s)))
 
     rise, driven = lifted(place.breaks, climb), lifted(place.breaks, rate)
-    last = model.farther(hole_at(problem, place(np.array([1.0])))[0][0])
+    last = model.farther_at_end(hole_at(problem, place(np.array([1.0])))[0][0])
 
     def functions(s: FloatArray) -> FloatArray:
         here, lift = hole_at(problem, place(s))[0], rise(s)
-        offset = (last * state.load - driven(s)) / model.farther(here[0]) - state.load + problem.weight * lift
+        offset = (last * state.load - driven(s)) / model.farther(s, here[0]) - state.load + problem.weight * lift
         return np.concatenate([here, lift[None], offset[None]])
 
     return hole_along(Rod(PLAIN), place.breaks, functions)  # sections do the rest
@@ -230,14 +232,21 @@ def in_space(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArr
 
 
 def _lying_place(problem: Problem, s: FloatArray) -> FloatArray:
-    """The place S₀ (k,) on the axis of an arc beside the rod that lies along it; of each section at its clearance."""
+    """The place S₀ (k,) on the axis beside the rod that lies along it; of each section at its clearance."""
     rod = problem.rod
     if not rod.clearance_steps.size:
         return undeformed_place(problem, s)
-    bend = float(hole_at(problem, np.array([0.5]))[0][0, 0])
-    lengths = np.diff(rod.breaks) / (1.0 + problem.clearance * rod.clearance.coefficients[:, 0] * bend)
-    ahead = np.concatenate([[0.0], np.cumsum(lengths)])
-    return np.asarray(ends_of_lying_rod(problem)[0] + np.interp(s, rod.breaks, ahead))
+    hole, place, out = problem.hole, ends_of_lying_rod(problem)[0], np.empty_like(s)
+    assert hole is not None
+    ends = list(zip(rod.breaks[:-1], rod.breaks[1:], rod.clearance.coefficients[:, 0], strict=True))
+    for k, (first, last, ratio) in enumerate(ends):
+        reach = wall_side(problem) * problem.clearance * ratio
+        ahead = float(lying_rod_beside(hole, reach, np.array([place]))[0]) - first
+        here = rod.clearance.piece_of(s) == k
+        if np.any(here):
+            out[here] = places_of_lying_rod(hole, reach, ahead + s[here])
+        place = float(places_of_lying_rod(hole, reach, np.array([ahead + last]))[0])
+    return out
 
 
 def energy_in_space(state: PatternedState) -> float:
@@ -260,5 +269,5 @@ def energy_in_space(state: PatternedState) -> float:
     end = np.array([1.0])
     start, last = float(_lying_place(problem, end)[0]), float(places_along(state)(end)[0])
     along = start + 0.5 * (last - start) * (nodes + 1.0)
-    travel = 0.5 * (last - start) * float(gauss @ model.farther(hole_at(problem, along)[0][0]))
+    travel = 0.5 * (last - start) * float(gauss @ model.farther_at_end(hole_at(problem, along)[0][0]))
     return float(weights @ (bent + risen)) - state.load * travel

@@ -27,11 +27,6 @@ def refuse_holes(problem: Problem, strings: bool = False) -> None:
             field, value, f"must {must} beside sections: off the wall a string is followed in the vertical plane, till "
             "it buckles out of it; how it lies in this hole, up to where it leaves the wall: rodwell.lying_rod",
         )  # fmt: skip
-    if problem.axis:
-        raise InputError(
-            "axis", f"{len(problem.axis)} points", "must be left out beside sections: off the wall a string takes a "
-            "hole of one curvature; give build, the mean curvature of that piece of the hole, and alpha there",
-        )  # fmt: skip
     if not strings:
         raise InputError(
             "sections", f"{len(problem.sections)} of them", "must be left out in a curved hole: it bends a stiffer "
