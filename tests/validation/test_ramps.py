@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from numpy.polynomial import Polynomial
 from scipy.integrate import solve_ivp
 
-from rodwell import Problem, critical_loads, follow, load_path, ramp, sensitivities, tensile_loads
+from rodwell import Problem, critical_loads, follow, ramp, sensitivities, tensile_loads
 from rodwell.analysis.straight.ramps import least_contact_on_ramps, steepest
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
@@ -185,10 +185,10 @@ def test_what_is_not_computed_is_refused_with_the_place(given: dict[str, Any], s
         critical_loads(Problem(**{"weight": 60.0, "alpha": 60.0, **given}))
 
 
-@pytest.mark.parametrize("what", [follow, load_path, sensitivities])
+@pytest.mark.parametrize("what", [follow, sensitivities])
 def test_what_needs_one_clearance_is_refused(what: Any) -> None:
     with pytest.raises(InputError, match=r"must have one clearance.*there are critical loads"):
-        what(CASES["widens"], **({"until": -200.0} if what is load_path else {}))
+        what(CASES["widens"])
 
 
 def test_higher_modes_at_which_the_rod_has_left_the_wall_are_left_out() -> None:

@@ -63,7 +63,8 @@ def refuse_clearances(problem: Any, what: str) -> None:
     if problem.ramps:
         raise InputError(
             "sections", "clearance that varies along them", f"must have one clearance: {what} are computed in holes of "
-            "one. Where it goes over smoothly there are critical loads: `rodwell critical`, rodwell.critical_loads",
+            "one. Where it goes over smoothly there are critical loads and load paths: `rodwell critical`, "
+            "`rodwell path`, rodwell.critical_loads, rodwell.load_path",
         )  # fmt: skip
     refuse_bridging(problem, what)
 

@@ -66,8 +66,8 @@ class Problem(Refusals):
         steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
         computed of rods that stay on the wall is refused. So does it where it begins to float: a section of negative
         weight ratio, beside others of positive ones, lies on the upper side; the ends stay at the bottom. Where the
-        clearance varies without steps and kinks (:func:`rodwell.ramp`), there are critical loads. Along an ``axis``
-        and with ``walk`` all have one clearance and one sign of weight. None given: a uniform rod.
+        clearance varies without steps and kinks (:func:`rodwell.ramp`), there are critical loads and load paths. Along
+        an ``axis`` and with ``walk`` all have one clearance and one sign of weight. None given: a uniform rod.
     build, walk
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
         turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the
@@ -144,7 +144,7 @@ class Problem(Refusals):
 
     @property
     def ramps(self) -> bool:
-        """Whether the clearance varies along sections, without steps and kinks: critical loads are known of it."""
+        """Whether the clearance varies along sections, without steps and kinks: with critical loads and paths."""
         return bool(self.sections) and self.rod.ramps
 
     @property

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from rodwell.analysis.off_wall.arrange import refined
 from rodwell.analysis.off_wall.certificate import contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState
-from rodwell.analysis.off_wall.happening import BRANCH_POINT, PathEvent
+from rodwell.analysis.off_wall.happening import BRANCH_POINT, FOLD, PathEvent
 from rodwell.analysis.off_wall.pattern import FINER
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.stretches.walk import AS_GOOD_AS_ZERO, locate, search, tangent
@@ -41,6 +41,8 @@ def resolved_event(event: PathEvent, rtol: float) -> ResolvedEvent:
     And until the state there passes its certificate, if that can be had.
     """
     if event.value is None or event.along is None:
+        if event.kind == FOLD and event.state.model.inclined:  # a first state behind a fold, which was not located
+            return ResolvedEvent(event, Value(event.state.load, UNKNOWN * abs(event.state.load)), False)
         return ResolvedEvent(event, Value(event.state.load, 0.0), True)
     load, error = event.state.load, UNKNOWN * abs(event.state.load)
     best = event

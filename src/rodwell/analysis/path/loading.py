@@ -8,7 +8,7 @@ from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.soft import sunk
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, Destination, Leg, PathPoint
 from rodwell.analysis.path.legs import Walked, walked
-from rodwell.analysis.path.start import OnWall, arched, leaving_places, on_wall, released
+from rodwell.analysis.path.start import OnWall, arched, beside_lying, leaving_places, on_wall, released
 from rodwell.analysis.path.straightening import How, leaves_lying, lying_state
 from rodwell.analysis.straight.without_wall import loads_without_wall
 from rodwell.errors import NotConvergedError
@@ -40,6 +40,8 @@ def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
     begun, start = None, None
     if problem.untouched:
         start = arched(model, how.mode)
+    elif problem.ramps:
+        start = beside_lying(model, how.mode, mirror)
     elif leaving_places(problem):
         start = released(problem, mirror, how.rtol)
     elif problem.pressed or problem.hole is not None:
@@ -51,7 +53,7 @@ def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
     leg.straight.append((top, how.mode.force))
     out = walked(start, model, control.value(start.solved), until, leg, how)
     first = [PathPoint(CRITICAL, critical, (), LOADING)]
-    if begun is None:
+    if begun is None and not problem.ramps:
         first.append(PathPoint(LIFT_OFF, critical, leaving_places(problem), LOADING))
     out.events[:0] = first
     if begun is not None:
