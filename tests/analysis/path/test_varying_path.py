@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from strong_form import integrated
 
 import rodwell
@@ -16,6 +20,7 @@ from rodwell.analysis.path.follow import load_path
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.path.straightening import straight_state
 from rodwell.analysis.straight.ramps import least_contact_on_ramps
+from rodwell.cli.main import cli
 from rodwell.numerics.stretches.assembly import Assembled, assemble, bubbles_of
 from rodwell.numerics.stretches.bordered import Row, bordered, fixed_load, fixed_work
 from rodwell.numerics.stretches.carry import rim_fields
@@ -180,3 +185,32 @@ def test_what_has_no_path_is_refused(changes: dict, message: str) -> None:
     with pytest.raises(rodwell.InputError) as raised:
         load_path(ROD.but(**changes), until=-120.0)
     assert message in str(raised.value)
+
+
+def test_a_gap_opens_where_the_contact_force_jumps() -> None:
+    """At an end of a quarter of the ramp: nearly all of it on the side where contact ceases to push."""
+    length, first = 0.586, 0.338
+    problem = rodwell.Problem(
+        30.0, 60.0, ends=("clamped", "guided"),
+        sections=((first,), *ramp(length, 1.0, 0.836), (1 - first - length, 1, 1, 0.836)),
+    )  # fmt: skip
+    found = load_path(problem, until=-145.0, seeds=1)
+    assert found.reached
+    opens = next(event for event in found.events if event.kind == "lift_off")
+    step = first + 0.75 * length
+    assert opens.s[0] == pytest.approx(step, abs=1e-9)
+    gap = found.at(-144.0)[0].state.gaps[0]
+    assert 0.0 < step - gap.start.value < 0.3 * (gap.end.value - step)
+
+
+def test_the_command_line_follows_it(tmp_path: Path) -> None:
+    written = "0.1:1:1:1,0.8:1:1:1~1.2,0.1:1:1:1.2"
+    given = ["path", "--weight", "15", "--alpha", "90", "--sections", written, "--json", "--out", str(tmp_path / "out")]
+    shown = CliRunner().invoke(cli, [*given, "--until", "-117", "--at", "-112"])
+    assert shown.exit_code == 0, shown.output
+    data = json.loads(shown.stdout)
+    assert [event["kind"] for event in data["events"]] == ["critical", "lift_off"]
+    state = data["states"][0]
+    assert state["certificate"]["passed"]
+    assert state["left_out"]["axial_force"] > 0.0
+    assert (tmp_path / "out" / "load-path.png").exists()

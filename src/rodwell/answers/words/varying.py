@@ -33,8 +33,8 @@ def varying_limits(found: Varying) -> tuple[str, ...]:
     size = plain(found.critical.slope_squared, 2)
     return (
         f"Left out are terms of the order of the square of the wall's slope, {size} of a load.",
-        "Not computed where the clearance varies: what the rod does after it has buckled, lift-off, stress, formulas "
-        "of practice beside it.",
+        "What the rod does after it has buckled: `rodwell path`. Not computed where the clearance varies: stress, "
+        "formulas of practice beside it.",
     )
 
 
