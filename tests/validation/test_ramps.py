@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from numpy.polynomial import Chebyshev, Polynomial
 from scipy.integrate import solve_ivp
 
-from rodwell import Problem, critical_loads, load_path, ramp, tensile_loads
+from rodwell import Problem, critical_loads, ramp, tensile_loads
 from rodwell.analysis.discrete.meshes import linear_space
 from rodwell.analysis.straight.lying_pencil import variation_factors
 from rodwell.analysis.straight.ramps import axial_contact, least_contact_on_ramps, steepest
@@ -241,11 +241,6 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
 def test_what_is_not_computed_is_refused_with_the_place(given: dict[str, Any], said: str) -> None:
     with pytest.raises(InputError, match=said):
         critical_loads(Problem(**{"weight": 60.0, "alpha": 60.0, **given}))
-
-
-def test_what_needs_one_clearance_is_refused() -> None:
-    with pytest.raises(InputError, match=r"must have one clearance.*there are critical loads"):
-        load_path(CASES["widens"], until=-200.0)
 
 
 def test_higher_modes_at_which_the_rod_has_left_the_wall_are_left_out() -> None:

@@ -78,7 +78,7 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
                 help="String of sections from s = 0, each length:stiffness[:weight[:clearance[:torsion]]]; lengths in "
                 "L add up to 1, the others are ratios, 1 where left out: 0.6:1:1,0.4:0.3:0.5. A taper has 2 to 5 "
                 "values at even places along the section: 0.6:1:1,0.4:1/0.3:1/0.5. A negative weight: it floats. "
-                "A clearance a~b goes over smoothly (critical loads): 0.5:1:1:1,0.5:1:1:1~1.1.",
+                "A clearance a~b goes over smoothly (critical loads, load paths): 0.5:1:1:1,0.5:1:1:1~1.1.",
             ),
             click.option(
                 "--build",

@@ -251,6 +251,9 @@ def _range(
     if until is not None or problem.leaves_wall:
         far = None if until is None else _number("--until", until, case, control)
         return far, None if back is None else _number("--unload-to", back, case, control)
+    if problem.ramps:
+        what = "must be given where the clearance varies: there no lift-off is known from which it could be chosen"
+        raise InputError("--until", None, what)
     if case is None or control != "force":
         raise click.UsageError("Missing option '--until'.")
     from rodwell.answers.result.beyond import off_at, reach  # noqa: PLC0415

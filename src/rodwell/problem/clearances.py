@@ -133,7 +133,8 @@ def refuse_clearances(problem: Any, what: str) -> None:
         raise InputError(
             "sections", "clearance that varies along them", f"must have one clearance: {what} are computed in holes of "
             "one. Where it goes over smoothly there are critical loads (`rodwell critical`, rodwell.critical_loads), "
-            "branches of buckled states and their lift-off (`rodwell liftoff`, `diagram`, rodwell.follow)",
+            "branches of buckled states and their lift-off (`rodwell liftoff`, `diagram`, rodwell.follow), and load "
+            "paths (`rodwell path`, rodwell.load_path)",
         )  # fmt: skip
     refuse_bridging(problem, what)
 

@@ -65,8 +65,8 @@ class Problem(Refusals):
         steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
         computed of rods that stay on the wall is refused. So does it where it begins to float: a section of negative
         weight ratio, beside others of positive ones, lies on the upper side; the ends stay at the bottom. Where the
-        clearance varies without steps and kinks (:func:`rodwell.ramp`), there are loads and branches. In a hole
-        that leaves the vertical plane all have one clearance and one sign of weight. None given: a uniform rod.
+        clearance varies without steps and kinks (:func:`rodwell.ramp`), there are loads, branches and load paths. In a
+        hole that leaves the vertical plane all have one clearance and one sign of weight. None: a uniform rod.
     build, walk
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
         turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the

@@ -23,7 +23,8 @@ LONGEST_ELEMENT, SHORTEST_ELEMENT = 1.5, 0.45
 """An element may become this much longer, or shorter, than a new one would be."""
 
 CURVED_WAVES = 0.4
-"""WAVES in a curved hole, which presses the rod to the wall: beside short gaps there the push changes more sharply."""
+"""WAVES in a curved hole, which presses the rod to the wall: beside short gaps there the push changes more sharply; and
+where the clearance varies, which makes products of the clearance and the fields."""
 
 BESIDE_STATION = 0.02
 """Part of an element's length from which on an end of a stretch is beside a station of the hole, which then is none."""
@@ -60,7 +61,7 @@ def element_counts(
 ) -> Elements:
     """Elements of each piece of each stretch, as waves and tapers ask for; ``fixed`` as in :class:`Pattern`."""
     if waves is None:
-        waves = WAVES if model.problem.hole is None else CURVED_WAVES
+        waves = WAVES if model.problem.hole is None and not model.inclined else CURVED_WAVES
     corners, section = pieces_of(model.problem, fixed)
     numbers = wavenumbers(model, load)
     if model.problem.tapered:

@@ -163,7 +163,7 @@ def _growing(first: Condition, found: PatternedState, plan: Plan) -> Callable[[S
     if first.kind == TOUCHES:
         point = int(np.argmin(np.abs(found.solved.shape.breaks - place)))
         return lambda one: float(one.forces[point])
-    radius = float(np.min(found.problem.rod.clearance(sides(place))))
+    radius = 1.0 if found.model.inclined else float(np.min(found.problem.rod.clearance(sides(place))))
     return lambda one: radius - float(np.hypot(*sampler(one.shape)(np.array([place]))[0][:, 0, 0]))
 
 

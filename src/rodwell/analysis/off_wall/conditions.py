@@ -128,7 +128,7 @@ class PatternedState:
             for s, force in zip(self.pattern.edges, self.edge_forces, strict=True)
         ]
         found += [(s, force, "kink") for s, force in self.kink_forces]
-        return sorted(found)
+        return sorted((s, force / float(self.model.unit(np.array(s))), kind) for s, force, kind in found)
 
     @cached_property
     def kink_forces(self) -> list[tuple[float, float]]:

@@ -119,7 +119,7 @@ def _axis(state: PatternedState) -> tuple[FloatArray, FloatArray]:
     grid = np.unique(np.concatenate([np.linspace(0.0, 1.0, 401), state.bounds, state.problem.rod.breaks]))
     points, weights = _RULE
     s = (grid[:-1, None] + 0.5 * np.diff(grid)[:, None] * (points + 1.0)).ravel()
-    x1, y1 = state.model.problem.clearance * fields_at(state.solved.shape, s)[0][:, 1]
+    x1, y1 = state.model.across(s, fields_at(state.solved.shape, s)[0])[:, 1]
     rate = np.sqrt(1.0 - x1**2 - y1**2).reshape(-1, 4) @ (0.5 * weights) * np.diff(grid)
     return grid, np.concatenate([[0.0], np.cumsum(rate)])
 
@@ -128,8 +128,10 @@ def _inside(state: PatternedState, elements: IntArray) -> Callable[[FloatArray],
     """How far beyond the wall elements (k,) are, in Δ (negative: a gap), as a function of ξ (k, n)."""
 
     def inside(xi: FloatArray) -> FloatArray:
-        x, y = state.solved.shape.along(elements, xi, 1)[:, 0]
-        return np.asarray(np.hypot(x, y) - state.solved.shape.chain.radii[elements, None])
+        shape = state.solved.shape
+        x, y = shape.along(elements, xi, 1)[:, 0]
+        beyond = np.hypot(x, y) - shape.chain.radii[elements, None]
+        return np.asarray(beyond * state.model.unit(shape.places[elements, None] + shape.lengths[elements, None] * xi))
 
     return inside
 
@@ -150,7 +152,8 @@ def position(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArr
         pressure[on] = state.model.pressure(s[on], angle[:, on], shape.load, given)
     if state.model.soft:
         pressure = -d * state.model.stiffness * np.maximum(np.hypot(fields[0, 0], fields[1, 0]) - 1.0, 0.0)
-    return d * fields[0], d * fields[1], pressure
+    x, y = state.model.across(s, fields)
+    return x, y, pressure
 
 
 def fields_of(state: PatternedState, places: FloatArray) -> dict[str, FloatArray]:
@@ -164,3 +167,22 @@ def fields_of(state: PatternedState, places: FloatArray) -> dict[str, FloatArray
         "curvature": rod.curvature, "tension": rod.tension, "bending_moment": stiffness * rod.curvature,
         "contact_pressure": pressure,
     }  # fmt: skip
+
+
+def left_out(state: PatternedState) -> dict[str, float]:
+    """Where the clearance varies, what its wall does along the hole, which is left out: "axial_force", "energy".
+
+    A wall inclined by Δ′ pushes the rod along the hole by p Δ′ per length, so N is off by ∫|p Δ′| ds at most, in B/L².
+    A place that has moved along the hole by s − z finds a wall that is Δ′(s − z) nearer or farther: the energy is off
+    by ∫|p Δ′| (s − z) ds to first order, in B/L. Forces at single places count likewise.
+    """
+    shape, slope = state.solved.shape, state.problem.rod.clearance.derivative
+    points, weights = _RULE
+    weights = np.tile(0.5 * weights, shape.lengths.size)
+    s = (shape.places[:-1, None] + 0.5 * shape.lengths[:, None] * (points + 1.0)).ravel()
+    push = np.abs(position(state, s)[2]) * np.repeat(shape.lengths, points.size) * weights
+    single = [(place, abs(state.problem.clearance * force)) for place, force, _ in state.point_forces]
+    s = np.concatenate([s, [place for place, _ in single]])
+    along: FloatArray = np.concatenate([push, [force for _, force in single]])
+    along = along * np.abs(state.problem.clearance * slope(s))
+    return {"axial_force": float(np.sum(along)), "energy": float(along @ np.abs(s - along_axis(state, s)))}

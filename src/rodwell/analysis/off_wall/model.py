@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -42,6 +42,9 @@ class RodInHole:
 
     problem: Problem
     stiffness: float = math.inf
+
+    inclined: ClassVar[bool] = False
+    """Whether the clearance varies along sections."""
 
     @cached_property
     def soft(self) -> bool:
@@ -164,6 +167,14 @@ class RodInHole:
         problem, stiffness = self.problem, self.problem.rod.stiffness
         n = load + problem.axial_weight * problem.rod.lever(s)
         return in_space(x, y, n, problem.twist, stiffness(s), stiffness.derivative(s))
+
+    def unit(self, s: FloatArray) -> FloatArray | float:
+        """The unit of fields at places, over Δ."""
+        return 1.0
+
+    def across(self, s: FloatArray, fields: FloatArray) -> FloatArray:
+        """x, y with derivatives in L, (2, orders, k), from fields with derivatives."""
+        return np.asarray(self.problem.clearance * fields)
 
     def resultants(self, load: float) -> FloatArray:
         """N at both ends of each section, (2, n)."""

@@ -177,6 +177,8 @@ def chain(
     # one piece more at each corner that is fixed, not a break
     section = section_after[owner - np.repeat(np.arange(len(elements)), sizes)]
     radii = problem.rod.clearance.coefficients[section, 0]
+    if problem.ramps:  # fields are in units of the clearance where they are
+        radii = np.ones_like(radii)
     around = np.minimum(np.append(radii[:1], radii), np.append(radii, radii[-1:]))  # at nodes, of the narrower part
     edges = np.flatnonzero(np.isin(places[:, 0], pattern.edges) & ~places[:, 1:].any(axis=1))
     polar = np.zeros(total + 1, dtype=bool)

@@ -46,6 +46,8 @@ def resolved_event(event: PathEvent, rtol: float) -> ResolvedEvent:
     And until the state there passes its certificate, if that can be had.
     """
     if event.value is None or event.along is None:
+        if event.kind == FOLD and event.state.model.inclined:  # a first state behind a fold, which was not located
+            return ResolvedEvent(event, Value(event.state.load, UNKNOWN * abs(event.state.load)), False)
         return ResolvedEvent(event, Value(event.state.load, 0.0), True)
     load, error = event.state.load, UNKNOWN * abs(event.state.load)
     best, noise = event, 0.0

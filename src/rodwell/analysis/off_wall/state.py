@@ -12,7 +12,7 @@ from rodwell.analysis.off_wall.arrange import refined, turns_of
 from rodwell.analysis.off_wall.certificate import LIMIT, ContactCertificate, contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.curved.own_places import with_own_places
-from rodwell.analysis.off_wall.measured import Numbers, fields_of, measured
+from rodwell.analysis.off_wall.measured import Numbers, fields_of, left_out, measured
 from rodwell.analysis.off_wall.pattern import FINER
 from rodwell.analysis.off_wall.soft import aligned
 from rodwell.errors import InputError, NotConvergedError
@@ -227,6 +227,11 @@ class ContactState:
         return {name: abs(getattr(own, name).value - getattr(self, name).value) for name in names}
 
     @cached_property
+    def left_out(self) -> dict[str, float]:
+        """What is left out where the clearance varies: :func:`rodwell.analysis.off_wall.measured.left_out`."""
+        return left_out(self.fine) if self.problem.ramps else {}
+
+    @cached_property
     def certificate(self) -> ContactCertificate:
         """Balance of forces, signs of contact, and reactions by two routes."""
         return contact_certificate(self.fine)
@@ -252,11 +257,8 @@ class ContactState:
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
         return {
-            "force": self.force,
-            "kind": self.kind,
-            "turns": self.turns,
-            "energy": self.energy.as_dict(),
-            "stability_index": self.stability_index,
+            "force": self.force, "kind": self.kind, "turns": self.turns,
+            "energy": self.energy.as_dict(), "stability_index": self.stability_index,
             "gaps": [
                 {"from": g.start.as_dict(), "to": g.end.as_dict(), "largest": g.largest.as_dict(), "at": g.at}
                 for g in self.gaps
@@ -268,10 +270,9 @@ class ContactState:
                 {"s": p.s.as_dict(), "force": p.force.as_dict(), "kind": p.kind, "angle": p.angle}
                 for p in self.point_forces
             ],
-            "contact_total": self.contact_total.as_dict(),
-            "shortening": self.shortening.as_dict(),
-            "certificate": self.certificate.as_dict(),
-        }
+            "contact_total": self.contact_total.as_dict(), "shortening": self.shortening.as_dict(),
+            "certificate": self.certificate.as_dict(), **({"left_out": self.left_out} if self.left_out else {}),
+        }  # fmt: skip
 
 
 def contact_state(state: PatternedState) -> ContactState:

@@ -33,6 +33,9 @@ FIRST_WITH_SLOPE, SLIGHT = 2e-3, 0.1
 AT_KINK = 1e-9
 """Distance in L within which a place is that of a kink."""
 
+SLIGHT_JUMP = 1e-9
+"""A jump of the contact force in B/L³ that is as good as none."""
+
 SHARE = 0.1
 """Part of a gap that opens at a step of the weight on the side where contact still pushes."""
 
@@ -115,6 +118,15 @@ def edge_at(state: PatternedState, s: float) -> float | None:
     return next((float(one) for one in (*problem.rod.clearance_steps, *ends) if abs(one - s) < BESIDE_STEP), None)
 
 
+def over_jump(length: float, growth: float, jump: float) -> float:
+    """How far a gap of this length reaches over a jump of the contact force, to the side where contact pushes.
+
+    Beside the gap κx³/120 (x − b)² of length b, whose contact force would grow by κb, that side bears the moment κb³/60
+    of its end: over √(κb³/(30 p)), p the jump, which is short against b.
+    """
+    return length * float(np.sqrt(abs(growth) / (30.0 * max(jump, SLIGHT_JUMP))))
+
+
 def open_at(plan: Plan, condition: Condition) -> None:
     """A gap opens beside a step of the weight, where contact comes to push least at the step itself.
 
@@ -125,7 +137,11 @@ def open_at(plan: Plan, condition: Condition) -> None:
     below, above = pressure_at(state, i, sides(s))
     sense, room = (1.0, right - s) if above > below else (-1.0, s - left)
     length = min(2.0 * plan.half, 0.8 * float(room))
-    ends = sorted((s - sense * SHARE * length, s + sense * length))
+    over = SHARE * length
+    if state.model.inclined:
+        near, far = max(below, above), float(pressure_at(state, i, np.array([s + sense * length]))[0])
+        over = min(over_jump(length, near - far, float(near - min(above, below))), 0.5 * length)
+    ends = sorted((s - sense * over, s + sense * length))
     plan.bumps.append(beside(state, i, s, s + sense * length))
     plan.touching[i : i + 1] = [True, False, True]
     plan.breaks[i:i] = ends

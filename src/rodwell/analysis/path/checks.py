@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from rodwell.analysis.off_wall.control import FORCE, NAMES, Control, shortening
 from rodwell.analysis.off_wall.curved.refused import refuse_holes
 from rodwell.analysis.straight.lying import lies_between
+from rodwell.analysis.straight.ramps import least_contact_on_ramps
 from rodwell.errors import InputError, checked_number
+from rodwell.problem.clearances import check_lies
 from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
 from rodwell.problem.sections import refuse_sections
@@ -36,7 +40,9 @@ ALLOWED = f"a stiffness from {SOFTEST:g} to {STIFFEST:g} in units B = L = 1; lea
 def checked_problem(problem: Problem) -> None:
     """Raise if a rod has no load path here, with the reason."""
     refuse_holes(problem, strings=True)
-    if not problem.bridges:
+    if problem.ramps:
+        checked_ramps(problem)
+    elif not problem.bridges:
         problem.refuse_bridges("load paths off the wall")  # also of clearances that vary without steps
     if problem.outside:
         raise InputError(
@@ -69,6 +75,36 @@ def checked_problem(problem: Problem) -> None:
         raise InputError(
             "ends", "-".join(problem.ends), "nothing presses the loose end to the wall, where a path begins: "
             "give the rod some lateral weight, or take ball or free",
+        )  # fmt: skip
+
+
+def checked_ramps(problem: Problem) -> None:
+    """Raise if a rod in a hole whose clearance varies smoothly has no load path here, with the reason."""
+    check_lies(problem)
+    if problem.lateral_weight == 0.0:
+        raise InputError(
+            "alpha", 90.0 if problem.weight == 0.0 else problem.alpha, "must give the rod lateral weight where the "
+            "clearance varies: without it nothing lays it along the wall, where its path begins (weight above 0, alpha "
+            "above 0 and below 180)",
+        )  # fmt: skip
+    for end in problem.ends:
+        if end in OFF_WALL_ENDS:
+            what = "where the clearance varies, it leaves the wall as soon as it buckles, which is not followed there: "
+            raise InputError("ends", "-".join(problem.ends), f"{end}: {what}take clamped, pinned, guided or free")
+    rod = problem.rod
+    if np.any(rod.stiffness_breaks):
+        s = float(rod.breaks[1:-1][rod.stiffness_breaks][0])
+        raise InputError(
+            "sections, stiffness", f"a step or a kink at s/L = {s:.6g}", "must go over without steps and kinks where "
+            "the clearance varies along the rod: load paths off the wall past them are computed in holes of one "
+            "clearance, or of steps of it; critical loads are computed here: rodwell.critical_loads",
+        )  # fmt: skip
+    at_rest = least_contact_on_ramps(problem, 0.0)
+    if at_rest.value <= at_rest.error:
+        raise InputError(
+            "sections, clearance", f"contact force {at_rest.value:.4g} B/L³ at s/L = {at_rest.s:.4g}",
+            "must press the rod to the wall everywhere before it is compressed: the string bridges the wall there, "
+            "which is computed at steps of the clearance only. Let it vary over a longer part of the rod",
         )  # fmt: skip
 
 

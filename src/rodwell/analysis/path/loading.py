@@ -13,7 +13,7 @@ from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.soft import sunk
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, Destination, Leg, PathPoint
 from rodwell.analysis.path.legs import Walked, walked
-from rodwell.analysis.path.start import OnWall, arched, leaving_places, on_wall, released
+from rodwell.analysis.path.start import OnWall, arched, beside_lying, leaving_places, on_wall, released
 from rodwell.analysis.path.straightening import How, leaves_lying, lying_state
 from rodwell.analysis.straight.without_wall import loads_without_wall
 from rodwell.errors import InputError, NotConvergedError
@@ -47,6 +47,8 @@ def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
     begun, start = None, None
     if problem.untouched and how.mode is not None:
         start = arched(model, how.mode)
+    elif problem.ramps and how.mode is not None:
+        start = beside_lying(model, how.mode, mirror)
     elif leaving_places(problem):
         start = released(problem, mirror, how.rtol)
     elif problem.pressed or problem.hole is not None:
@@ -58,7 +60,7 @@ def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
     leg.straight.append((top, how.buckling.value))
     out = walked(start, model, control.value(start.solved), until, leg, how)
     first = [PathPoint(CRITICAL, critical, (), LOADING)]
-    if begun is None:
+    if begun is None and not problem.ramps:
         first.append(PathPoint(LIFT_OFF, critical, leaving_places(problem), LOADING))
     out.events[:0] = first
     if begun is not None:

@@ -20,8 +20,8 @@ from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.straight.critical import Mode
 from rodwell.numerics.stretches.bordered import Row
-from rodwell.numerics.stretches.carry import angle_of
-from rodwell.numerics.stretches.chain import RADIUS
+from rodwell.numerics.stretches.carry import angle_of, rim_fields
+from rodwell.numerics.stretches.chain import ANGLE, RADIUS
 from rodwell.numerics.stretches.newton import solve
 from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
@@ -36,6 +36,9 @@ HELD_INSTEAD = {"ball": "pinned", "loose": "free"}
 
 ARCH = 0.02
 """Height, in clearances, of the first state of a rod that arches away from the wall."""
+
+EVENLY = 1001
+"""Places at which a mode is looked at."""
 
 ONE_SIDED = 1e-6
 """Part of its height by which a mode may reach to the other side by round-off."""
@@ -164,7 +167,37 @@ def arched(model: RodInHole, mode: Mode) -> PatternedState | None:
     return None if found is None else PatternedState(pattern, elements, found)
 
 
-_EVENLY = np.linspace(0.0, 1.0, 1001)
+def beside_lying(model: RodInHole, mode: Mode, mirror: bool) -> PatternedState | None:
+    """The first buckled state of a rod on a wall whose clearance varies, found without a branch on the wall.
+
+    Its amplitude is held at first. None where no such state is stable and bears more than the straight rod: what
+    follows then is for the descent to find.
+    """
+    places = np.linspace(0.0, 1.0, EVENLY)
+    largest = float(np.max(np.abs(mode.space.evaluate(mode.coefficients, places, 1)[0] / model.unit(places))))
+    height = (-1.0 if mirror else 1.0) * BENT / largest
+    profile = model.problem.rod.clearance
+
+    def sample(s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        v, v1, v2 = mode.space.evaluate(mode.coefficients, s, 3)
+        r, r1, r2 = profile(s), profile.derivative(s), profile.derivative.derivative(s)
+        angle, rate = v / r, (v1 - v * r1 / r) / r
+        angles = height * np.stack([angle, rate, (v2 - 2.0 * rate * r1 - angle * r2) / r])
+        return rim_fields(angles), angles
+
+    pattern = Pattern((True,))
+    shape, elements = arranged(model, pattern, np.zeros(0), mode.force, sample)
+    weights = np.zeros_like(shape.nodes)
+    weights[:, ANGLE] = shape.nodes[:, ANGLE]
+    held = Row(weights, np.zeros(0), 0.0, float(np.sum(weights * shape.nodes)))
+    solved = solve(model, shape, held)[1]
+    found = None if solved is None else PatternedState(pattern, elements, solved)
+    if found is None or found.solved.index or found.load >= mode.force:
+        return None
+    return found if all(one.value > 0.0 for one in conditions(found)) else None
+
+
+_EVENLY = np.linspace(0.0, 1.0, EVENLY)
 
 
 def _amplitude(solution: Solution) -> float:

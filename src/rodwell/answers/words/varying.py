@@ -74,8 +74,8 @@ def push_note(solution: Solution) -> str:
 def varying_limits() -> tuple[str, ...]:
     """What is not computed."""
     return (
-        "Not computed where the clearance varies: what the rod does off the wall, and formulas of practice beside the "
-        "loads.",
+        "What the rod does off the wall: `rodwell path`. Not computed where the clearance varies: formulas of practice "
+        "beside the loads.",
     )
 
 

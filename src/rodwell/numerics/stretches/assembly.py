@@ -8,7 +8,9 @@ A model offers, in units where the disc has radius 1,
 * ``drift(s, u, mixed, given)``: the derivative of that gradient by s at the same u and load, (f, 3, e, q); that of the
   density's derivative by the load vanishes;
 * ``rim_reaction(s, angle, rate, bend, given)``: what a free rod of the rim's shape would exert radially at a cut, from
-  φ, φ′ and φ″ there: moment, its derivatives by φ, φ′ and the place, outward force; see :func:`_react`.
+  φ, φ′ and φ″ there: moment, its derivatives by φ, φ′ and the place, outward force; see :func:`_react`;
+* where the rim is ``inclined`` instead ``inclined_reaction(s, jet, load, given)``, from φ with three derivatives, with
+  the derivative of the moment by φ″ at last, and ``work_drift(s, u, mixed, given)``, of what else vanishes.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ import numpy as np
 
 from rodwell.numerics.stretches.basis import ENDS, bent, reference_element
 from rodwell.numerics.stretches.chain import ANGLE, ANGLE_RATE, RADIAL_SLOPE, Shape, cartesian_curvature
+from rodwell.numerics.stretches.inclined import ByBend, by_bend, jet_at_cuts
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 RIM_SLOTS = np.array([1, 3, 5, 7])
@@ -61,7 +64,7 @@ class Assembled:
     reactions. ``work_by_break`` (m,), ``work_by_load`` and ``work_residual``: derivatives of ``energy_by_load`` besides
     ``by_load``, which is that by the nodes, and what it lacks as long as the bubbles are not in equilibrium.
     ``moments``, ``moment_turns``, ``moment_rates``, ``moment_shifts`` and ``forces`` (m,): radial reactions at the
-    moving nodes, see :func:`_react`.
+    moving nodes, see :func:`_react`. ``by_bend``: what they depend on besides on an inclined rim.
     """
 
     shape: Shape
@@ -82,6 +85,7 @@ class Assembled:
     moment_rates: FloatArray
     moment_shifts: FloatArray
     forces: FloatArray
+    by_bend: ByBend | None = None
 
     @cached_property
     def negative_bubbles(self) -> int:
@@ -161,6 +165,9 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
         whole[:, :, -3] += (whole[:, :, parts.slopes] @ rate[..., None])[..., 0]
         work = (element.weights * e_load + weight * (mixed * fall).sum(axis=(0, 1))).sum(axis=1)
         work += (whole[:, parts.slopes, -1] * rate).sum(axis=1)
+        if model.inclined:
+            farther = weight * model.work_drift(s, u, mixed, given)
+            work = np.stack([work + (farther * element.points).sum(axis=1), farther.sum(axis=1)])
     return _without_bubbles(group, fields, whole, h, work), float((weight * e).sum()), float((weight * e_load).sum())
 
 
@@ -180,7 +187,7 @@ def _without_bubbles(group: IntArray, fields: int, whole: FloatArray, h: FloatAr
     left *= scale[:, :ends, None]
     back *= scale[:, None, :-1]
     if more > 2:
-        works[:, 1] += work
+        works[:, 1 : 1 + len(np.atleast_2d(work))] += np.atleast_2d(work).T
         left[:, slopes, ends + 1] += whole[:, bubbles + slopes, -more]
     return Condensed(group, fields, back, whole[:, :bubbles, :bubbles], left[:, :, :ends], left[:, :, ends:], works)
 
@@ -273,17 +280,21 @@ def _react(model: Any, out: Assembled) -> None:
     rate and the place of the cut, from stretches on the rim; and the outward forces with which the rod presses on
     the rim. The energy of a stretch on the rim does not know r and r′: its part comes from the cut, ``rim_reaction``.
     """
-    shape, chain = out.shape, out.shape.chain
+    shape, chain, cuts = out.shape, out.shape.chain, out.shape.chain.cuts
     out.moments += out.residual[chain.moving, RADIAL_SLOPE]
     out.forces -= out.plain[chain.moving, 0]
-    cuts = chain.cuts
     if cuts.number.size:
-        node, at = chain.moving[cuts.number], cuts.element
-        bend = np.sum(bent(shape.local(at)[:, 0]) * reference_element(chain.degree).end_bends[cuts.ahead], axis=1)
-        bend = bend / shape.lengths[at] ** 2
-        given, (angle, rate) = chain.given[at].T, shape.nodes[node][:, [ANGLE, ANGLE_RATE]].T
-        reaction = model.rim_reaction(shape.places[node], angle, rate, bend, given)
-        sign = 2.0 * cuts.ahead - 1.0
+        node, at, sign = chain.moving[cuts.number], cuts.element, 2.0 * cuts.ahead - 1.0
+        given = chain.given[at].T
+        if model.inclined:
+            jet = jet_at_cuts(shape)
+            *reaction, by_phi2 = model.inclined_reaction(shape.places[node], jet, shape.load, given)
+            out.by_bend = by_bend(shape, out.groups[0], jet[2], sign * by_phi2)
+        else:
+            ends = reference_element(chain.degree).end_bends[cuts.ahead]
+            bend = np.sum(bent(shape.local(at)[:, 0]) * ends, axis=1) / shape.lengths[at] ** 2
+            angle, rate = shape.nodes[node][:, [ANGLE, ANGLE_RATE]].T
+            reaction = model.rim_reaction(shape.places[node], angle, rate, bend, given)
         totals = out.moments, out.moment_turns, out.moment_rates, out.moment_shifts, out.forces
         for total, part in zip(totals, reaction, strict=True):
             np.add.at(total, cuts.number, sign * part)

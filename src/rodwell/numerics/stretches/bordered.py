@@ -166,10 +166,15 @@ def bordered(out: Assembled, row: Row) -> Bordered:
     lines[breaks, moving + 1] = out.below[moving, :, RADIAL_SLOPE]
     lines[breaks, moving, ANGLE] += out.moment_turns
     lines[breaks, moving, ANGLE_RATE] += out.moment_rates
+    if out.by_bend is not None:
+        lines += out.by_bend.nodes
     lines *= free
     small = np.empty((m + 1, m + 1))
     small[:m], small[m, :m], small[m, m] = columns[moving, RADIAL_SLOPE], row.breaks, row.load
     small[breaks, breaks] += out.moment_shifts
+    if out.by_bend is not None:
+        small[:m, :m] += out.by_bend.breaks
+        small[:m, m] += out.by_bend.load
     flat = answers.reshape(4 * n, m + 1)
     small[:m] -= lines.reshape(m, 4 * n) @ flat
     small[m] -= (row.nodes * free).ravel() @ flat
@@ -180,4 +185,5 @@ def residuals(out: Assembled, row: Row) -> tuple[FloatArray, FloatArray, float]:
     """What is left of the equations of nodes and breaks, and what the row lacks."""
     shape = out.shape
     lacks = row.target - row.of(shape.nodes, shape.breaks, shape.load)
-    return out.residual, out.moments, lacks - row.work * (out.energy_by_load + out.work_residual)
+    moments = out.moments if out.by_bend is None else out.moments + out.by_bend.residual
+    return out.residual, moments, lacks - row.work * (out.energy_by_load + out.work_residual)

@@ -21,6 +21,7 @@ import numpy as np
 from rodwell.analysis.discrete.curved import HoleAlong, along_rod, along_uniform_rod, carried
 from rodwell.analysis.discrete.family import parameters
 from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.varying.model import RodBesideVaryingWall
 from rodwell.physics.off_wall._curved_density import curved_hole_density
 from rodwell.physics.off_wall.curved_forces import in_curved_hole, radially_at_curved_wall
 from rodwell.physics.off_wall.forces import InSpace
@@ -273,4 +274,6 @@ def alike_in_sections(own: HoleAlong, uniform: HoleAlong) -> HoleAlong:
 
 def rod_in_hole(problem: Problem, stiffness: float = math.inf) -> RodInHole:
     """The rod of a problem as a model for chains of stretches, behind a hard wall, or one of this stiffness in B/L⁴."""
+    if problem.ramps:
+        return RodBesideVaryingWall(problem, stiffness)
     return RodInHole(problem, stiffness) if problem.hole is None else RodOffCurvedWall(problem, stiffness)

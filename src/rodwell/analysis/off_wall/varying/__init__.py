@@ -1,0 +1,1 @@
+"""Rods off a wall whose clearance varies smoothly."""
