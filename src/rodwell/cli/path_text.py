@@ -80,7 +80,7 @@ def print_path(result: LoadPath, case: Case | None) -> None:
     click.echo(
         f"End force at s = 1 in {UNIT} (tension positive), {ends_text(result.problem)}; the {result.way.held} is"
     )
-    click.echo(f"controlled. {result.assumptions[0].upper()}{result.assumptions[1:]}.")
+    wrapped(f"controlled. {result.assumptions[0].upper()}{result.assumptions[1:]}.")
     leg = ""
     for event in result.events:
         if event.leg != leg:

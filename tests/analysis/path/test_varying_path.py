@@ -164,6 +164,7 @@ def test_what_is_left_out_is_told(path: LoadPath) -> None:
     pushed = 15.0 * 0.01 * 0.2  # ∫ w Δ′; the other terms weigh Δ′Δ‴ and Δ′Δ″, even about the middle, at the ends 0
     state = path.at(-105.0)[0].state
     assert state.left_out["axial_force"] == pytest.approx(pushed, rel=1e-3)
+    assert "the wall's push along the hole is left out" in path.assumptions
     assert np.trapezoid(first(s) * second(s), s) == pytest.approx(0.0, abs=1e-6)
     still = 0.5 * 1e-4 * np.trapezoid(first(s) ** 2, s)
     assert 0.0 < state.left_out["energy"] < pushed * still

@@ -24,6 +24,7 @@ from rodwell.errors import InputError, NotConvergedError, RodwellError
 from rodwell.faces import Shown, drawn, face
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.text import plain
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
@@ -177,8 +178,16 @@ class LoadPath(Shown):
     def assumptions(self) -> str:
         """What is assumed, in words."""
         if math.isinf(self.wall_stiffness):
-            return ASSUMPTIONS
+            return ASSUMPTIONS + self._left_out()
         return ASSUMPTIONS.replace(HARD, f"wall of stiffness {self.wall_stiffness:g} B/L⁴")
+
+    def _left_out(self) -> str:
+        """What the wall's push along the hole may change of loads beyond buckling where the clearance varies."""
+        states = [event.state for event in self.events if event.state is not None]
+        if not self.problem.ramps or not states:
+            return ""
+        most = max(state.left_out["axial_force"] for state in states)
+        return f"; once it has buckled the wall's push along the hole is left out, {plain(most, 2)} B/L² at most"
 
     @property
     def meaning(self) -> tuple[str, ...]:

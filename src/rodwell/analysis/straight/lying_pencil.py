@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from rodwell.analysis.discrete.curved import along_rod
 from rodwell.analysis.discrete.family import given_along, parameters, rod_model, spline_ends
 from rodwell.numerics.equilibria import eigen
 from rodwell.numerics.splines.banded import factorise
@@ -17,10 +18,14 @@ from rodwell.quantities.arrays import FloatArray
 
 
 def variation_factors(problem: Problem, space: SplineSpace) -> tuple[FloatArray, FloatArray]:
-    """Hessian of the density at y = 0, (3, 3, m), without an end force, and by it."""
-    given = given_along(problem)
+    """Hessian of the density at y = 0, (3, 3, m), without an end force, and by it.
+
+    A straight hole of one clearance counts as a curved one, which it is among others along curves.
+    """
+    given = given_along(problem) if problem.ramps else along_rod(problem)
     assert given is not None
-    rows, model = given(space.points), rod_model(problem)
+    rows = given(space.points)
+    model = rod_model(problem) if problem.ramps else model_of(rows.T)
     at_rest, pushed = (hessian_at(space.points, rows, parameters(problem, force), model) for force in (0.0, 1.0))
     return at_rest, pushed - at_rest
 
