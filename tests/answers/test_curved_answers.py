@@ -215,3 +215,19 @@ def test_a_stiff_rod_in_a_bend_that_comes_and_goes_needs_compression_to_lie_ther
     text = " ".join(sentences(found))
     assert "It lies there only if the compression at s = 1 is at least 19.3707 B/L²: under less the rod leaves" in text
     assert "above the end force −19.3707 B/L² at s = 1" in " ".join(status.reason for status in statuses(found))
+
+
+def test_of_a_string_that_nothing_holds_at_its_steps_the_load_is_told_beside_that_of_the_held_one() -> None:
+    """It buckles before the held one in this hole: in the verdict, in the words, and of a load that acts between."""
+    case = rodwell.Case.read(EXAMPLE.with_name("assembly-in-build.toml"))
+    first = rodwell.load_path(case.problem, rtol=case.rtol).first("critical")
+    assert first is not None
+    held = rodwell.critical_loads(case.problem)[0].force
+    between = replace(case.applied[0], force=0.5 * (first.force.value + held))
+    found = rodwell.answer(replace(case, applied=(between,), modes=1))
+    assert found.not_held_at_steps == first.force
+    assert found.buckling.value < first.force.value  # the unsafe one of both is the held one
+    told = " ".join(sentences(found))
+    assert "lbf if nothing holds it there" in told
+    assert "sideways, before the one that is held, at" in told
+    assert "it has buckled, whatever is told" in told

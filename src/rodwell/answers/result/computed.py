@@ -19,7 +19,6 @@ from rodwell.analysis.loads.derivatives import Sensitivity
 from rodwell.analysis.loads.ends import of_leaving, of_lift_off
 from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.loads.sensitivity import of_critical_load, of_first_met, of_lying_rod
-from rodwell.analysis.path.follow import not_held_at_steps
 from rodwell.analysis.state.certificate import Certificate
 from rodwell.analysis.state.own_places import lift_off_with_own_places
 from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
@@ -117,11 +116,12 @@ class Computed:
     def not_held_at_steps(self) -> Value | str | None:
         """The load at which a string buckles that nothing holds at steps of its stiffness in a bend; or why not known.
 
-        Critical loads and branches are those of one held on the wall there. None without such steps, and where the
-        hole leaves the vertical plane.
+        Critical loads and branches are those of one held there. None without such steps, and out of the vertical plane.
         """
-        if self.lying is not None:
+        if self.lying is not None or not self.case.problem.bent:
             return None
+        from rodwell.analysis.path.follow import not_held_at_steps  # noqa: PLC0415 - others do not wait
+
         begun = time.process_time()
 
         def progress(_leg: str, _force: float) -> str | None:

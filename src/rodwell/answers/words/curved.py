@@ -52,8 +52,12 @@ def _not_held(answer: Answer) -> str:
         return ""
     if isinstance(load, str):
         return f" When one buckles that nothing holds there was not found: {load}."
-    lower = " **earlier than the one that is held**" if load.value - load.error > held.value + held.error else ""
-    return f" One that nothing holds there buckles sideways{lower} at {forces_of(answer.case).load(load)}."
+    earlier = load.value - load.error > held.value + held.error
+    text = f" One that nothing holds there buckles sideways{', before the one that is held,' if earlier else ''} at "
+    text += f"{forces_of(answer.case).load(load)}."
+    if earlier and any(one.force < load.value for one in answer.case.applied):
+        text += " Under the most compressive load that acts it has buckled, whatever is told of the one that is held."
+    return text
 
 
 def _places(answer: Answer) -> str:

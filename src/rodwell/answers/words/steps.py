@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.state.wall import StepLoad
-from rodwell.answers.words.wording import place_text, size_text
+from rodwell.answers.words.wording import forces_of, place_text, size_text
 from rodwell.quantities.text import amount, plain
 from rodwell.quantities.value import Value
 
@@ -101,6 +101,13 @@ def _bent_note(lifting: list[StepLoad], case: Case | None, off: float | None) ->
         f"the step, over {far}, before it buckles. The loads told are those of a rod that is held there."
         + (f" {pulled}" if pulled else "")
     )
+
+
+def not_held_aside(load: Value | str | None, case: Case) -> str:
+    """The load of a string that nothing holds at its steps in a bend, beside that of the held one; or nothing."""
+    if load is None:
+        return ""
+    return f", {'not known' if isinstance(load, str) else forces_of(case).size(load)} if nothing holds it there"
 
 
 def _places(steps: list[StepLoad], case: Case | None) -> str:

@@ -7,7 +7,7 @@ import math
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.result.lying import followed_from
 from rodwell.answers.words.in_space import NOT_GIVEN, lies_from, lies_until, what_ends
-from rodwell.answers.words.steps import IF_HELD, held
+from rodwell.answers.words.steps import IF_HELD, held, not_held_aside
 from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
@@ -94,7 +94,7 @@ def _range_in_curved_hole(a: Assessment) -> str:
         text = f"The rod lies along the hole, {what}, only under a tension of at least {said.size(load)}{said.at_end}"
     else:
         text = f"The rod lies along the hole, {what}, until the compression{said.at_end} reaches {said.size(load)}"
-    text += said.other(load)
+    text += said.other(load) + not_held_aside(a.computed.not_held_at_steps, a.case)
     if left is None:
         return text
     return f"{text}; there it leaves {_side(a, left.s)}{'' if followed_from(a.case.problem, left.value) else NOT_GIVEN}"
