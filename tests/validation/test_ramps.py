@@ -19,6 +19,7 @@ from rodwell.analysis.straight.ramps import axial_contact, least_contact_on_ramp
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
 from rodwell.problem.sections import checked_sections, sections_from, sections_text
+from rodwell.problem.words import ends_text, sections_given
 
 NARROWS = ((0.2,), *ramp(0.5, 1.0, 1.1), (0.3, 1.0, 1.0, 1.1))
 """A hole that widens towards s = 1."""
@@ -270,3 +271,11 @@ def test_written_in_a_line_and_told_by_the_command() -> None:
     refused = CliRunner().invoke(cli, [*arguments[:-1], "0.2:1,0.5:1:1:1~2,0.3:1:1:2"])
     assert isinstance(refused.exception, InputError)
     assert "bridges" in str(refused.exception)
+
+
+def test_a_smooth_change_of_the_clearance_counts_as_one_section() -> None:
+    """It is made of four, which nobody gave; sections that are given one by one count one by one."""
+    given = sections_from("0.4:1:1:1,0.2:1:1:1~1.4,0.2:1:1:1.4,0.1:1:1:1.4~1.5,0.1:1:1:1.5")
+    assert sections_given(Problem(15.0, sections=given)) == 5
+    assert "string of 5 sections" in ends_text(Problem(15.0, sections=given))
+    assert sections_given(Problem(15.0, sections=((0.5, 1.0), (0.5, 2.0)))) == 2

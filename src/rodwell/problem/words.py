@@ -6,15 +6,30 @@ from collections.abc import Mapping
 
 from rodwell.problem.problem import Problem
 
+QUARTERS = 4
+"""Sections of equal length that make one smooth change of the clearance."""
+
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
     """End conditions in words: names, or what ``words`` says of each; how many sections, and whether the rod floats."""
     first, last = (words[end] if words else end for end in problem.ends)
     ends = f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
     if problem.sections:
-        ends += f", string of {len(problem.sections)} sections" if len(problem.sections) > 1 else ", one section"
+        count = sections_given(problem)
+        ends += f", string of {count} sections" if count > 1 else ", one section"
         ends += ", tapered" if problem.tapered else ""
     return f"{ends}, rod floats: pressed to the upper side" if problem.floats else ends
+
+
+def sections_given(problem: Problem) -> int:
+    """How many sections a string has, a smooth change of the clearance (:func:`rodwell.ramp`) counted as one."""
+    sections, i, count = problem.sections, 0, 0
+    while i < len(sections):
+        quarters = sections[i : i + QUARTERS]
+        varying = [isinstance(section[3], tuple) for section in quarters]
+        is_ramp = len(quarters) == QUARTERS and all(varying) and len({section[0] for section in quarters}) == 1
+        i, count = i + (QUARTERS if is_ramp else 1), count + 1
+    return count
 
 
 def where_it_bridges(problem: Problem) -> str:
