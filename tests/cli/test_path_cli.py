@@ -95,6 +95,12 @@ def test_bad_input() -> None:
         assert done.exception.field == field
 
 
+def test_loads_of_a_case_are_told_in_its_words() -> None:
+    case = Path(__file__).parents[2] / "examples" / "drill-string.toml"
+    told = CliRunner().invoke(cli, ["path", str(case), "--until", "-130 kN", "--seeds", "1"])
+    assert "(124.6 kN of compression)  the straight rod buckles" in told.output
+
+
 def test_a_string_of_sections() -> None:
     done = run(*COMMON, "--sections", "0.6:1:1,0.4:0.5:0.8", "--until", "-84", "--at", "-83.5", "--json")
     assert done.exit_code == 0, done.output

@@ -73,7 +73,7 @@ def print_barrier(result: LoadPath, force: float, case: Case | None) -> None:
 
 
 def print_path(result: LoadPath, case: Case | None) -> None:
-    """Print events as a list; why the path ended in the words of its case."""
+    """Print events as a list, of a case with their loads in its words, too, and why the path ended."""
     from rodwell.answers.words.wording import forces_in  # noqa: PLC0415
     from rodwell.problem.words import ends_text  # noqa: PLC0415
 
@@ -81,7 +81,7 @@ def print_path(result: LoadPath, case: Case | None) -> None:
         f"End force at s = 1 in {UNIT} (tension positive), {ends_text(result.problem)}; the {result.way.held} is"
     )
     wrapped(f"controlled. {result.assumptions[0].upper()}{result.assumptions[1:]}.")
-    leg = ""
+    leg, scales, said = "", None if case is None else case.scales, forces_in(result, case)
     for event in result.events:
         if event.leg != leg:
             leg = event.leg
@@ -89,7 +89,8 @@ def print_path(result: LoadPath, case: Case | None) -> None:
         where = _places(event.s)
         driven = result.driven(event)
         at = "" if driven is None else f", {result.way.held} {amount(driven, 9)} L"
-        click.echo(f"  {with_error(event.force)}  {event.meaning}{where}{at}")
+        there = "" if scales is None else f" ({said.load(event.force)})"
+        click.echo(f"  {with_error(event.force)}{there}  {event.meaning}{where}{at}")
         if event.to is not None:
             energy = f"energy {_signed(event.to.energy, 9)} B/L relative to {_rest(result)}"
             energy += "" if driven is None else f", F = {_signed(event.to.force, 10)}"
@@ -103,7 +104,7 @@ def print_path(result: LoadPath, case: Case | None) -> None:
             "." if result.unload_to is None else f" and back to {plain(result.unload_to, 6)}."
         ))  # fmt: skip
     else:
-        wrapped(f"Not followed to the end: {forces_in(result, case).retold(result.ended_because)}.")
+        wrapped(f"Not followed to the end: {said.retold(result.ended_because)}.")
     if result.problem.twist != 0.0:
         arm = "without" if result.mirror else "with"
         wrapped(f"Twist makes the two arms of the buckling mode differ: the other one is followed {arm} --mirror.")
